@@ -1,0 +1,46 @@
+# camber_module(NAME SOURCES ... HEADERS ... DEPENDS ... [PRIVATE_DEPENDS ...])
+#   makes the static library camber_NAME (alias camber::NAME) from the calling folder.
+# camber_test(NAME SOURCES ... LIBRARIES ... [LABELS ...])
+#   makes the GoogleTest program NAME and registers each of its tests with ctest.
+include(GNUInstallDirs)
+include(GoogleTest)
+
+set(camber_module_targets "" CACHE INTERNAL "modules in build order")
+
+function(camber_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(target camber_${name})
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE
+      $<BUILD_INTERFACE:camber_warnings> ${ARG_PRIVATE_DEPENDS})
+    target_link_libraries(${target} PUBLIC $<BUILD_INTERFACE:camber_build>)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(camber::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  # Headers in detail/ belong to the module alone and are not installed.
+  list(FILTER ARG_HEADERS EXCLUDE REGEX "(^|/)detail/")
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src
+    FILES ${ARG_HEADERS})
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_link_libraries(${target} ${scope} ${ARG_DEPENDS})
+  set(camber_module_targets "${camber_module_targets};${target}" CACHE INTERNAL "")
+endfunction()
+
+function(camber_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE camber_warnings camber_build ${ARG_LIBRARIES}
+    GTest::gtest GTest::gtest_main GTest::gmock)
+  target_compile_definitions(${name} PRIVATE
+    CAMBER_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    CAMBER_SHARED_CASES="${PROJECT_SOURCE_DIR}/../shared/cases")
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  gtest_discover_tests(${name} TEST_PREFIX "${name}/" PROPERTIES LABELS "${ARG_LABELS}" DISCOVERY_TIMEOUT 60)
+endfunction()

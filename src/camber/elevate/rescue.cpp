@@ -1,0 +1,111 @@
+#include <camber/elevate/rescue.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include <camber/base/parallel.hpp>
+
+namespace camber {
+namespace {
+
+/// Halvings before the displacement of an entity is dropped altogether.
+constexpr int k_halvings = 5;
+
+/// Displacement scales of all entities that were ever reduced.
+class Reducer {
+ public:
+  explicit Reducer(CurvedMesh& curved)
+      : curved_(curved), topology_(curved.topology()), straight_(curved.linear(), topology_, curved.orders()) {
+    halvings_[0].assign(topology_.edge_count(), 0);
+    halvings_[1].assign(topology_.face_count(), 0);
+    halvings_[2].assign(curved.linear().cell_count(), 0);
+  }
+
+  /// Reduces all entities of the cells once; returns the cells that touch any of them.
+  std::vector<Index> reduce(const std::vector<Index>& cells) {
+    std::vector<Index> edges, faces;
+    for (Index c : cells) {
+      for (Index e : topology_.edges_of_cell(c)) edges.push_back(e);
+      for (Index f : topology_.faces_of_cell(c)) faces.push_back(f);
+    }
+    make_unique(edges);
+    make_unique(faces);
+    std::vector<Index> touched = cells;
+    for (Index e : edges) {
+      halve(halvings_[0][at(e)], curved_.edge_nodes(e), straight_.edge_nodes(e));
+      for (Index c : topology_.cells_of_edge(e)) touched.push_back(c);
+    }
+    for (Index f : faces) {
+      halve(halvings_[1][at(f)], curved_.face_nodes(f), straight_.face_nodes(f));
+      for (Index c : topology_.face2cell[at(f)]) {
+        if (c != k_none) touched.push_back(c);
+      }
+    }
+    for (Index c : cells) halve(halvings_[2][at(c)], curved_.cell_nodes(c), straight_.cell_nodes(c));
+    make_unique(touched);
+    return touched;
+  }
+
+  [[nodiscard]] double kept(Index c) const {
+    const int n = halvings_[2][at(c)];
+    return n > k_halvings ? 0.0 : std::ldexp(1.0, -n);
+  }
+
+ private:
+  static void make_unique(std::vector<Index>& items) {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+  }
+  static void halve(std::uint8_t& count, std::span<Vec3> x, std::span<const Vec3> straight) {
+    if (count > k_halvings) return;
+    ++count;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] = count > k_halvings ? straight[i] : Vec3(straight[i] + 0.5 * (x[i] - straight[i]));
+    }
+  }
+
+  CurvedMesh& curved_;
+  const Topology& topology_;
+  CurvedMesh straight_;
+  std::array<std::vector<std::uint8_t>, 3> halvings_;
+};
+
+}  // namespace
+
+std::vector<Index> uncertified_cells(const CurvedMesh& curved, const std::vector<Index>& candidates) {
+  std::vector<std::uint8_t> is_bad(candidates.size(), 0);
+  parallel_for(candidates.size(), 64, [&](std::size_t begin, std::size_t end) {
+    Points nodes;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index c = candidates[i];
+      const int p = curved.cell_order(c);
+      if (p < 2) continue;
+      curved.gather(c, p, nodes);
+      is_bad[i] = quick_verdict(curved.linear().cell_shape[at(c)], p, nodes) != Verdict::valid;
+    }
+  });
+  std::vector<Index> bad;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (is_bad[i]) bad.push_back(candidates[i]);
+  }
+  return bad;
+}
+
+RescueResult scale_back(CurvedMesh& curved, const std::vector<Index>& uncertified) {
+  RescueResult result;
+  if (uncertified.empty()) return result;
+  Reducer reducer(curved);
+  std::vector<Index> bad = uncertified, all = uncertified;
+  while (!bad.empty() && result.passes < 8 * (k_halvings + 2)) {
+    ++result.passes;
+    bad = uncertified_cells(curved, reducer.reduce(bad));
+    all.insert(all.end(), bad.begin(), bad.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  result.scaled_back = std::move(all);
+  for (Index c : result.scaled_back) result.kept.push_back(reducer.kept(c));
+  return result;
+}
+
+}  // namespace camber

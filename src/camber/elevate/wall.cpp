@@ -1,0 +1,117 @@
+#include <camber/elevate/wall.hpp>
+
+#include <algorithm>
+
+#include <camber/base/parallel.hpp>
+
+namespace camber {
+namespace {
+
+/// A CAD normal that differs from the facets by more than this (cosine) is not believed: the foot point
+/// lies on a fold, a pole or a wrong sheet.
+constexpr double k_least_agreement = 0.2;
+
+void collect_corners(const Topology& topology, const Association& association, Wall& wall) {
+  std::vector<std::pair<Index, Index>> keys;  // (vertex, patch)
+  for (Index f : wall.faces) {
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      keys.emplace_back(topology.face2vertex[at(f)][static_cast<std::size_t>(i)],
+                        association.face2patch[at(f)]);
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  wall.corners.resize(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    wall.corners[i].vertex = keys[i].first;
+    wall.corners[i].patch = keys[i].second;
+  }
+  wall.face_corners.resize(wall.faces.size());
+  for (std::size_t s = 0; s < wall.faces.size(); ++s) {
+    const Index f = wall.faces[s];
+    wall.face_corners[s] = {-1, -1, -1, -1};
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      const std::pair key{topology.face2vertex[at(f)][static_cast<std::size_t>(i)],
+                          association.face2patch[at(f)]};
+      wall.face_corners[s][static_cast<std::size_t>(i)] =
+          static_cast<Index>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+    }
+  }
+}
+
+}  // namespace
+
+Vec3 outward_normal(const LinearMesh& mesh, const Topology& topology, Index face) {
+  const std::array<Index, 4>& v = topology.face2vertex[at(face)];
+  const int n = topology.corners_of_face(face);
+  Vec3 normal = Vec3::Zero(), centre = Vec3::Zero();
+  const Vec3& first = mesh.vertices[at(v[0])];
+  for (int i = 0; i < n; ++i) {
+    const Vec3& a = mesh.vertices[at(v[static_cast<std::size_t>(i)])];
+    const Vec3& b = mesh.vertices[at(v[static_cast<std::size_t>((i + 1) % n)])];
+    normal += (a - first).cross(b - first);
+    centre += a / n;
+  }
+  // The cell lies behind the face: thin cells still have their other vertices on that side.
+  const Index cell = topology.face2cell[at(face)][0];
+  Vec3 cell_centre = Vec3::Zero();
+  for (Index c : mesh.cell(cell)) cell_centre += mesh.vertices[at(c)];
+  cell_centre /= static_cast<double>(mesh.cell(cell).size());
+  if (normal.dot(centre - cell_centre) < 0.0) normal = -normal;
+  const double length = normal.norm();
+  return length > 0.0 ? Vec3(normal / length) : Vec3::Zero();
+}
+
+Wall build_wall(const LinearMesh& mesh, const Topology& topology, const Association& association,
+                const GeometryModel& model) {
+  Wall wall;
+  wall.face_slot.assign(topology.face_count(), k_none);
+  wall.edge_slot.assign(topology.edge_count(), k_none);
+  for (Index f = 0; at(f) < topology.face_count(); ++f) {
+    const Patch* patch = association.patch_of(f);
+    if (!patch || patch->kind != PatchKind::cad) continue;
+    wall.face_slot[at(f)] = static_cast<Index>(wall.faces.size());
+    wall.faces.push_back(f);
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      const Index e = topology.face2edge[at(f)][static_cast<std::size_t>(i)];
+      if (wall.edge_slot[at(e)] == k_none) {
+        wall.edge_slot[at(e)] = static_cast<Index>(wall.edges.size());
+        wall.edges.push_back(e);
+        wall.edge_faces.push_back({k_none, k_none});
+      }
+      std::array<Index, 2>& faces = wall.edge_faces[at(wall.edge_slot[at(e)])];
+      (faces[0] == k_none ? faces[0] : faces[1]) = wall.face_slot[at(f)];
+    }
+  }
+  wall.facet_normal.resize(wall.faces.size());
+  for (std::size_t s = 0; s < wall.faces.size(); ++s) {
+    wall.facet_normal[s] = outward_normal(mesh, topology, wall.faces[s]);
+  }
+  collect_corners(topology, association, wall);
+  std::vector<Vec3> average(wall.corners.size(), Vec3::Zero());
+  for (std::size_t s = 0; s < wall.faces.size(); ++s) {
+    for (Index c : wall.face_corners[s]) {
+      if (c != k_none) average[at(c)] += wall.facet_normal[s];
+    }
+  }
+  parallel_for_with(
+      wall.corners.size(), 128, [&] { return model.projector(); },
+      [&](std::size_t begin, std::size_t end, std::unique_ptr<Projector>& projector) {
+        for (std::size_t i = begin; i < end; ++i) {
+          WallCorner& corner = wall.corners[i];
+          const Vec3 facets = average[i].normalized();
+          const Projection foot = project_to_group(
+              *projector, association.patches[at(corner.patch)].group, mesh.vertices[at(corner.vertex)]);
+          corner.face = foot.entity;
+          corner.uv = foot.uv;
+          corner.normal = facets;
+          if (foot.status == ProjectionStatus::failed) continue;
+          Vec3 normal = projector->evaluate_face(foot.entity.tag, foot.uv).normal;
+          if (normal.dot(facets) < 0.0) normal = -normal;
+          if (normal.dot(facets) >= k_least_agreement) corner.normal = normal;
+        }
+      });
+  return wall;
+}
+
+}  // namespace camber

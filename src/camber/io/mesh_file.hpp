@@ -1,0 +1,40 @@
+#pragma once
+// Formats by extension, and safe writing.
+#include <camber/mesh/mesh_data.hpp>
+
+#include <functional>
+#include <string>
+
+namespace camber::io {
+
+enum class Format { automatic, gmsh, vtu };
+
+struct ReadOptions {
+  Format format = Format::automatic;
+};
+struct WriteOptions {
+  Format format = Format::automatic;
+  bool binary = true;
+  double gmsh_version = 4.1;  // 4.1 or 2.2
+};
+
+/// Reads a mesh file (.msh 4.1 and 2.2, ASCII and binary; linear or curved to order 4).
+/// @throws FileError naming path, line or byte offset, what was found and what was expected.
+[[nodiscard]] MeshData read_mesh(const std::string& path, const ReadOptions& options = {});
+
+/// Fails at once with the error that write_mesh would end in (unknown extension, missing folder,
+/// not writable), so that nobody waits for a run whose result cannot be written.
+void check_writable(const std::string& path, const WriteOptions& options = {});
+
+/// Writes to a temporary file beside `path`, flushes it to disk, reads it back where a reader
+/// exists, calls verify(what was read), then renames. On any failure the temporary is removed, the
+/// old file is untouched and a FileError is thrown.
+void write_mesh(const MeshData& mesh, const std::string& path, const WriteOptions& options = {},
+                const std::function<void(const MeshData&)>& verify = {});
+
+/// The same safety for any writer: produce(temporary path) must create the file.
+void write_atomically(const std::string& path,
+                      const std::function<void(const std::string&)>& produce,
+                      const std::function<void(const std::string&)>& verify = {});
+
+}  // namespace camber::io

@@ -1,0 +1,136 @@
+#include <camber/pipeline/curve.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+
+
+#include <camber/base/parallel.hpp>
+#include <camber/elevate/apply_field.hpp>
+#include <camber/elevate/rescue.hpp>
+#include <camber/pipeline/summary.hpp>
+
+namespace camber {
+namespace {
+
+/// Seconds by stage, in the order of first use.
+class Stopwatch {
+ public:
+  void next(const char* stage) {
+    stop();
+    stage_ = stage;
+    start_ = Clock::now();
+  }
+  void stop() {
+    if (!stage_) return;
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    for (auto& [name, total] : stages_) {
+      if (name == stage_) {
+        total += seconds;
+        stage_ = nullptr;
+        return;
+      }
+    }
+    stages_.emplace_back(stage_, seconds);
+    stage_ = nullptr;
+  }
+  [[nodiscard]] const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const char* stage_ = nullptr;
+  Clock::time_point start_;
+  std::vector<std::pair<std::string, double>> stages_;
+};
+
+}  // namespace
+
+CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
+                  const Progress& progress) {
+  CurveResult result;
+  Stopwatch watch;
+  watch.next("topology");
+  progress("topology", 0.0);
+  result.linear = std::make_unique<LinearMesh>(build_linear_mesh(data));
+  result.topology = std::make_unique<Topology>(build_topology(*result.linear));
+  const LinearMesh& mesh = *result.linear;
+  const Topology& topology = *result.topology;
+
+  watch.next("associate");
+  progress("associate", 0.1);
+  result.association = associate_by_tags(mesh, topology, geometry, options.association);
+
+  watch.next("place");
+  progress("place", 0.2);
+  const Wall wall = build_wall(mesh, topology, result.association, geometry);
+  const Placement placement(mesh, topology, result.association, geometry, wall, options.orders.max_order);
+
+  watch.next("elevate");
+  progress("elevate", 0.4);
+  const Columns columns = find_columns(mesh, topology, wall);
+  const LayerField field(mesh, topology, result.association, wall, placement, columns, options.layer);
+  const OrderRequests requests = request_orders(mesh, topology, wall, placement, field, options.orders);
+  OrderField orders = settle_orders(mesh, topology, requests, options.orders);
+
+  watch.next("propagate");
+  progress("propagate", 0.6);
+  result.curved = std::make_unique<CurvedMesh>(mesh, topology, std::move(orders));
+  apply_field(field, *result.curved);
+
+  watch.next("certify");
+  progress("certify", 0.7);
+  std::vector<Index> curved_cells;
+  for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
+    if (result.curved->cell_order(c) > 1) curved_cells.push_back(c);
+  }
+  const std::vector<Index> uncertified = uncertified_cells(*result.curved, curved_cells);
+
+  watch.next("rescue");
+  progress("rescue", 0.8);
+  const RescueResult rescue = scale_back(*result.curved, uncertified);
+
+  watch.next("measure");
+  progress("measure", 0.9);
+  summarise(result, geometry, wall, placement, columns, rescue, options);
+  watch.stop();
+  result.report.stages_s = watch.stages();
+  for (const auto& [name, seconds] : watch.stages()) result.report.total_s += seconds;
+  progress("measure", 1.0);
+  return result;
+}
+
+MeshData exported(const CurveResult& result, const CurveOptions& options) {
+  ExportMap map;
+  MeshData data = export_mesh(*result.curved, options.uniform ? options.orders.max_order : 0, &map);
+  const std::size_t n = map.cell.size();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Field order{"order", std::vector<double>(n, nan)}, bound{"scaled_jacobian", std::vector<double>(n, nan)};
+  Field cost{"cost", std::vector<double>(n, nan)}, patch{"patch", std::vector<double>(n, nan)};
+  Field deviation{"deviation", std::vector<double>(n, nan)};
+  const Topology& topology = *result.topology;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Index c = map.cell[i], f = map.face[i];
+    if (c != k_none) {
+      order.values[i] = result.curved->cell_order(c);
+      bound.values[i] = result.cell_bound[at(c)];
+      cost.values[i] = result.cell_cost[at(c)];
+    } else if (f != k_none) {
+      order.values[i] = result.curved->face_order(f);
+      patch.values[i] = result.association.face2patch[at(f)] == k_none
+                            ? nan
+                            : result.association.patches[at(result.association.face2patch[at(f)])].entity;
+      deviation.values[i] = result.face_deviation[at(f)];
+      const Index behind = topology.face2cell[at(f)][0];
+      bound.values[i] = result.cell_bound[at(behind)];
+      cost.values[i] = result.cell_cost[at(behind)];
+    }
+  }
+  data.element_fields = {std::move(order), std::move(bound), std::move(cost), std::move(patch),
+                         std::move(deviation)};
+  data.source = result.report.input.mesh;
+  return data;
+}
+
+}  // namespace camber

@@ -1,0 +1,29 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include <camber/associate/by_tags.hpp>
+#include <camber/elevate/order_rules.hpp>
+
+namespace camber {
+
+/// How the wall's displacement is carried into the volume.
+enum class Propagation {
+  layer,  // through the whole boundary layer (default)
+  cell    // the paper's transfer (2.2.4): linearly decaying inside the elevated cells only
+};
+
+/// Everything a run of curve() depends on besides its files.
+struct CurveOptions {
+  OrderOptions orders;            // --order, --min-order, --deviation, --deviation-length
+  bool uniform = false;           // write every cell at orders.max_order (exact elevation)
+  Propagation propagation = Propagation::layer;
+  LayerFieldOptions layer;
+  TagOptions association;         // --unit, --patch
+  bool allow_invalid = false;     // write even if something is not certified
+  bool strict = false;            // faces over the deviation count as failure (exit code 3)
+  int threads = 0;                // 0: all
+};
+
+}  // namespace camber

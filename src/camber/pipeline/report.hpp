@@ -1,0 +1,99 @@
+#pragma once
+// What a run found and did: the data behind the text report and the --json file (see docs/report).
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <camber/base/ids.hpp>
+#include <camber/base/vec.hpp>
+#include <camber/basis/shape.hpp>
+
+namespace camber {
+
+inline constexpr int k_histogram_bins = 10;  // of [0,1]
+using Histogram = std::array<std::size_t, k_histogram_bins>;
+
+struct WorstCell {
+  GlobalId cell = 0;
+  Shape shape = Shape::point;
+  int order = 0;
+  Vec3 centre = Vec3::Zero();
+  double lower_bound = 0.0;  // certified scaled Jacobian
+};
+
+struct SurfaceRow {  // one group (patch on CAD), or one order
+  std::string name;
+  std::vector<std::string> cad;  // "face_3"
+  int order = 0;
+  std::size_t faces = 0;
+  double area = 0.0;
+  double average = 0.0, maximum = 0.0;                // shape conformity, eq. (1), and largest distance
+  double linear_average = 0.0, linear_maximum = 0.0;  // of the linear mesh
+};
+
+struct RescuePlace {
+  GlobalId cell = 0;
+  Shape shape = Shape::point;
+  Vec3 centre = Vec3::Zero();
+  double distance = 0.0;  // what it cost: largest distance of its wall nodes to where they were placed
+  std::string reason;     // "scaled back", "order lowered", "pinched between faces of one surface", ...
+};
+
+struct Report {
+  std::string command;          // "curve", "check", ...
+  std::string status = "ok";    // ok | not_certified | scaled_back | over_deviation | error
+  int exit_code = 0;
+  std::vector<std::pair<std::string, std::string>> options;  // effective options, name and value
+  struct {
+    std::string mesh;
+    std::vector<std::string> geometry;
+    std::map<Shape, std::size_t> cells;
+    std::size_t nodes = 0;
+  } input;
+  struct {
+    std::string path;
+    std::map<int, std::size_t> cells_by_order;
+    std::map<Shape, std::map<int, std::size_t>> cells_by_shape_and_order;
+    std::size_t nodes = 0;
+  } output;
+  struct {
+    std::size_t certified = 0, invalid = 0, undecided = 0;
+    double min_scaled_jacobian = 1.0, min_jacobian_ratio = 1.0;
+    std::vector<WorstCell> worst;  // ten lowest
+  } validity;
+  struct {
+    double max_gap = 0.0;  // largest distance between the two sides of a face [length]
+    int max_order_jump = 0;
+    double model_size = 0.0;
+  } conformity;
+  struct {
+    std::size_t faces = 0, faces_over_deviation = 0;
+    double average = 0.0, maximum = 0.0, linear_average = 0.0, linear_maximum = 0.0;
+    std::vector<SurfaceRow> by_group, by_order;
+    std::vector<std::string> patches_without_cad;
+  } surface;
+  struct {
+    double minimum = 1.0, average = 1.0;  // cost C of eq. (2)
+    std::size_t below_target = 0;
+    Histogram cost{}, scaled_jacobian{};
+  } quality;
+  struct {
+    std::size_t columns = 0, wall_nodes = 0, first_cell_changed_over_1_percent = 0;
+    double max_change = 0.0;
+  } wall_spacing;
+  struct {
+    std::size_t load_steps = 0, patches = 0, orders_lowered = 0, scaled_back = 0;
+    std::size_t pinched = 0;  // tets with two faces or three edges on one smooth CAD face
+    std::vector<RescuePlace> places;
+  } rescue;
+  std::vector<std::pair<std::string, double>> stages_s;  // read, associate, elevate, place, propagate, ...
+  double total_s = 0.0;
+  std::size_t peak_bytes = 0;
+  int threads = 0, ranks = 1;
+  std::vector<std::string> warnings;
+};
+
+}  // namespace camber

@@ -1,0 +1,364 @@
+#include <camber/pipeline/summary.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include <sys/resource.h>
+
+#include <fmt/format.h>
+
+#include <camber/base/parallel.hpp>
+#include <camber/basis/lagrange.hpp>
+#include <camber/elevate/pinched.hpp>
+#include <camber/metric/element_quality.hpp>
+#include <camber/validity/batch.hpp>
+
+namespace camber {
+namespace {
+
+constexpr double k_spacing_limit = 0.01;
+constexpr std::size_t k_worst_listed = 10;
+/// Cost under which a cell counts as below the quality target (the paper's convergence threshold).
+constexpr double k_cost_target = 0.95;
+
+void put(Histogram& histogram, double value) {
+  const int bin = std::clamp(static_cast<int>(value * k_histogram_bins), 0, k_histogram_bins - 1);
+  ++histogram[static_cast<std::size_t>(bin)];
+}
+
+Vec3 centre_of(const LinearMesh& mesh, Index c) {
+  Vec3 centre = Vec3::Zero();
+  for (Index v : mesh.cell(c)) centre += mesh.vertices[at(v)];
+  return centre / static_cast<double>(mesh.cell(c).size());
+}
+
+void count_cells(const CurveResult& result, const CurveOptions& options, Report& report) {
+  const LinearMesh& mesh = *result.linear;
+  report.input.nodes = mesh.vertices.size();
+  for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
+    ++report.input.cells[mesh.cell_shape[at(c)]];
+    const int p = options.uniform ? options.orders.max_order : result.curved->cell_order(c);
+    ++report.output.cells_by_order[p];
+    ++report.output.cells_by_shape_and_order[mesh.cell_shape[at(c)]][p];
+  }
+}
+
+void certify_cells(CurveResult& result, Report& report) {
+  const LinearMesh& mesh = *result.linear;
+  const CurvedMesh& curved = *result.curved;
+  const std::size_t n = mesh.cell_count();
+  const auto gather = [&](std::size_t i, Points& nodes) {
+    const Index c = static_cast<Index>(i);
+    curved.gather(c, curved.cell_order(c), nodes);
+    return ElementKind{mesh.cell_shape[i], curved.cell_order(c)};
+  };
+  const std::vector<JacobianBounds> bounds = certify_all(n, gather);
+  result.cell_bound.resize(n);
+  result.cell_cost.resize(n);
+  parallel_for(n, 512, [&](std::size_t begin, std::size_t end) {
+    Points nodes;
+    for (std::size_t i = begin; i < end; ++i) {
+      const ElementKind kind = gather(i, nodes);
+      result.cell_cost[i] = kind.order == 1 ? 1.0 : element_cost(kind.shape, kind.order, nodes).minimum;
+    }
+  });
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const JacobianBounds& b = bounds[i];
+    result.cell_bound[i] = b.scaled_jacobian;
+    report.validity.certified += b.verdict == Verdict::valid;
+    report.validity.invalid += b.verdict == Verdict::invalid;
+    report.validity.undecided += b.verdict == Verdict::undecided;
+    report.validity.min_scaled_jacobian = std::min(report.validity.min_scaled_jacobian, b.scaled_jacobian);
+    report.validity.min_jacobian_ratio = std::min(report.validity.min_jacobian_ratio, b.jacobian_ratio);
+    put(report.quality.scaled_jacobian, b.scaled_jacobian);
+    put(report.quality.cost, result.cell_cost[i]);
+    report.quality.minimum = std::min(report.quality.minimum, result.cell_cost[i]);
+    report.quality.below_target += result.cell_cost[i] < k_cost_target;
+    sum += result.cell_cost[i];
+  }
+  report.quality.average = n ? sum / static_cast<double>(n) : 1.0;
+  std::vector<Index> worst(n);
+  std::iota(worst.begin(), worst.end(), 0);
+  const std::size_t listed = std::min(n, k_worst_listed);
+  std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(listed), worst.end(),
+                    [&](Index a, Index b) {
+                      const double x = result.cell_bound[at(a)], y = result.cell_bound[at(b)];
+                      return x != y ? x < y : a < b;
+                    });
+  for (std::size_t i = 0; i < listed; ++i) {
+    const Index c = worst[i];
+    report.validity.worst.push_back({mesh.cell_tags[at(c)], mesh.cell_shape[at(c)], curved.cell_order(c),
+                                     centre_of(mesh, c), result.cell_bound[at(c)]});
+  }
+}
+
+/// Largest distance between what the two cells of a face make of it.
+void measure_gaps(const CurveResult& result, Report& report) {
+  const CurvedMesh& curved = *result.curved;
+  const Topology& topology = *result.topology;
+  std::vector<double> gap(topology.face_count(), 0.0);
+  parallel_for(topology.face_count(), 512, [&](std::size_t begin, std::size_t end) {
+    Points nodes;
+    std::array<Points, 2> seen;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [a, b] = topology.face2cell[i];
+      if (b == k_none) continue;
+      const int q = std::max(curved.cell_order(a), curved.cell_order(b));
+      if (q < 2) continue;
+      const Shape shape = topology.face_shape[i];
+      for (std::size_t side = 0; side < 2; ++side) {
+        const Index c = side == 0 ? a : b;
+        curved.gather(c, q, nodes);
+        const std::span<const Index> cell_faces = topology.faces_of_cell(c);
+        std::size_t local = 0;
+        while (cell_faces[local] != static_cast<Index>(i)) ++local;
+        const std::vector<int>& slots = lattice_map(curved.linear().cell_shape[at(c)], q).face[local];
+        const int view = topology.cell2face_view[at(topology.cell2face_offset[at(c)]) + local];
+        const std::span<const int> frame_node = face_view_nodes(shape, view, q);
+        seen[side].resize(slots.size());
+        for (std::size_t n = 0; n < slots.size(); ++n) {
+          seen[side][static_cast<std::size_t>(frame_node[n])] = nodes[static_cast<std::size_t>(slots[n])];
+        }
+      }
+      for (std::size_t n = 0; n < seen[0].size(); ++n) {
+        gap[i] = std::max(gap[i], (seen[0][n] - seen[1][n]).norm());
+      }
+    }
+  });
+  report.conformity.max_gap = gap.empty() ? 0.0 : *std::max_element(gap.begin(), gap.end());
+  report.conformity.max_order_jump = largest_order_jump(topology, curved.orders());
+  report.conformity.model_size = result.linear->size();
+}
+
+struct SurfaceSum {
+  std::size_t faces = 0;
+  double integral = 0.0, area = 0.0, maximum = 0.0;
+  double linear_integral = 0.0, linear_area = 0.0, linear_maximum = 0.0;
+  void add(const Deviation& curved, const Deviation& linear) {
+    ++faces;
+    integral += curved.integral;
+    area += curved.area;
+    maximum = std::max(maximum, curved.maximum);
+    linear_integral += linear.integral;
+    linear_area += linear.area;
+    linear_maximum = std::max(linear_maximum, linear.maximum);
+  }
+  [[nodiscard]] double average() const { return area > 0.0 ? integral / area : 0.0; }
+  [[nodiscard]] double linear_average() const { return linear_area > 0.0 ? linear_integral / linear_area : 0.0; }
+  [[nodiscard]] SurfaceRow row() const {
+    SurfaceRow row;
+    row.faces = faces;
+    row.area = area;
+    row.average = average();
+    row.maximum = maximum;
+    row.linear_average = linear_average();
+    row.linear_maximum = linear_maximum;
+    return row;
+  }
+};
+
+void measure_surface(CurveResult& result, const GeometryModel& geometry, const Wall& wall,
+                     const Placement& placement, const CurveOptions& options, Report& report) {
+  const Topology& topology = *result.topology;
+  const CurvedMesh& curved = *result.curved;
+  std::vector<Deviation> deviation(wall.face_count());
+  parallel_for_with(
+      wall.face_count(), 32, [&] { return geometry.projector(); },
+      [&](std::size_t begin, std::size_t end, std::unique_ptr<Projector>& projector) {
+        std::array<Vec3, 49> nodes;
+        for (std::size_t s = begin; s < end; ++s) {
+          const Index f = wall.faces[s];
+          const Shape shape = topology.face_shape[at(f)];
+          const int q = curved.face_order(f);
+          const std::span<Vec3> all(nodes.data(), static_cast<std::size_t>(node_count(shape, q)));
+          curved.face_lattice(f, q, all);
+          deviation[s] = measure_face(*projector, result.association.patch_of(f)->group, shape, q, all,
+                                      &wall.corners[at(wall.face_corners[s][0])]);
+        }
+      });
+  const std::vector<double> shortest = shortest_edges(*result.linear, topology);
+  result.face_deviation.assign(topology.face_count(), std::numeric_limits<double>::quiet_NaN());
+  std::map<Index, SurfaceSum> by_patch;
+  std::map<int, SurfaceSum> by_order;
+  SurfaceSum all;
+  for (std::size_t s = 0; s < wall.face_count(); ++s) {
+    const Index f = wall.faces[s];
+    const Deviation& linear = placement.face_deviation(static_cast<Index>(s), 1);
+    result.face_deviation[at(f)] = deviation[s].maximum;
+    by_patch[result.association.face2patch[at(f)]].add(deviation[s], linear);
+    by_order[curved.face_order(f)].add(deviation[s], linear);
+    all.add(deviation[s], linear);
+    const double length = deviation_length(*result.linear, topology, f, shortest, options.orders);
+    report.surface.faces_over_deviation += deviation[s].maximum > options.orders.deviation * length;
+  }
+  report.surface.faces = all.faces;
+  report.surface.average = all.average();
+  report.surface.maximum = all.maximum;
+  report.surface.linear_average = all.linear_average();
+  report.surface.linear_maximum = all.linear_maximum;
+  for (const auto& [patch, sum] : by_patch) {
+    SurfaceRow row = sum.row();
+    row.name = result.association.patches[at(patch)].name;
+    for (const GeomEntity& face : result.association.patches[at(patch)].group) {
+      row.cad.push_back(fmt::format("face_{}", face.tag));
+    }
+    report.surface.by_group.push_back(std::move(row));
+  }
+  for (const auto& [order, sum] : by_order) {
+    SurfaceRow row = sum.row();
+    row.name = fmt::format("Q{}", order);
+    row.order = order;
+    report.surface.by_order.push_back(std::move(row));
+  }
+  for (const Patch& patch : result.association.patches) {
+    if (patch.group.empty()) report.surface.patches_without_cad.push_back(patch.name);
+  }
+}
+
+/// Height of the first cell over every wall node of its order: distance to the node above it, linear and
+/// curved.
+void measure_wall_spacing(const CurveResult& result, const Wall& wall, const Columns& columns, Report& report) {
+  const CurvedMesh& curved = *result.curved;
+  const Topology& topology = *result.topology;
+  report.wall_spacing.columns = columns.column_count;
+  for (std::size_t s = 0; s < wall.face_count(); ++s) {
+    const Index f = wall.faces[s], c = topology.face2cell[at(f)][0];
+    if (columns.cell_face_slot[at(c)] != static_cast<Index>(s)) continue;
+    const int p = curved.cell_order(c);
+    const Shape shape = curved.linear().cell_shape[at(c)];
+    Points x, straight;
+    curved.gather(c, p, x);
+    curved.gather_straight(c, p, straight);
+    const std::span<const Index> cell_faces = topology.faces_of_cell(c);
+    std::size_t local = 0;
+    while (cell_faces[local] != f) ++local;
+    const LatticeMap& map = lattice_map(shape, p);
+    // The column direction of the lattice: along k in prisms, across the wall face in hexahedra.
+    const std::span<const LatticePoint> points = lattice(shape, p);
+    int axis = 2;
+    bool from_high = false;
+    for (int d = 0; d < 3; ++d) {
+      const auto level = [&](int value) {
+        return std::all_of(map.face[local].begin(), map.face[local].end(), [&](int n) {
+          return points[static_cast<std::size_t>(n)][static_cast<std::size_t>(d)] == value;
+        });
+      };
+      if (level(0) || level(p)) {
+        axis = d;
+        from_high = level(p);
+      }
+    }
+    for (int n : map.face[local]) {
+      LatticePoint above = points[static_cast<std::size_t>(n)];
+      above[static_cast<std::size_t>(axis)] = from_high ? 0 : p;
+      const std::size_t low = static_cast<std::size_t>(n);
+      const std::size_t high = static_cast<std::size_t>(lattice_index(shape, p, above));
+      const double before = (straight[high] - straight[low]).norm();
+      const double change = std::abs((x[high] - x[low]).norm() - before) / before;
+      ++report.wall_spacing.wall_nodes;
+      report.wall_spacing.first_cell_changed_over_1_percent += change > k_spacing_limit;
+      report.wall_spacing.max_change = std::max(report.wall_spacing.max_change, change);
+    }
+  }
+}
+
+/// Largest distance between where the wall nodes of a cell are and where they were to be.
+double distance_missed(const CurveResult& result, const Wall& wall, const Placement& placement, Index c) {
+  const CurvedMesh& curved = *result.curved;
+  const Topology& topology = *result.topology;
+  double largest = 0.0;
+  for (Index e : topology.edges_of_cell(c)) {
+    const Index slot = wall.edge_slot[at(e)];
+    if (slot == k_none || curved.edge_order(e) < 2) continue;
+    const std::span<const Vec3> x = curved.edge_nodes(e), wanted = placement.edge_nodes(slot, curved.edge_order(e));
+    for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, (x[i] - wanted[i]).norm());
+  }
+  for (Index f : topology.faces_of_cell(c)) {
+    const Index slot = wall.face_slot[at(f)];
+    if (slot == k_none || curved.face_order(f) < 2) continue;
+    const std::span<const Vec3> x = curved.face_nodes(f), wanted = placement.face_nodes(slot, curved.face_order(f));
+    for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, (x[i] - wanted[i]).norm());
+  }
+  return largest;
+}
+
+void list_rescue(const CurveResult& result, const Wall& wall, const Placement& placement,
+                 const RescueResult& rescue, Report& report) {
+  const LinearMesh& mesh = *result.linear;
+  const std::vector<Index> pinched = find_pinched_cells(mesh, *result.topology, result.association, wall);
+  report.rescue.pinched = pinched.size();
+  report.rescue.scaled_back = rescue.scaled_back.size();
+  std::vector<Index> listed = rescue.scaled_back;
+  for (Index c : pinched) {
+    if (result.curved->cell_order(c) > 1) listed.push_back(c);
+  }
+  std::sort(listed.begin(), listed.end());
+  listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
+  for (Index c : listed) {
+    const auto place = std::lower_bound(rescue.scaled_back.begin(), rescue.scaled_back.end(), c);
+    const bool is_scaled = place != rescue.scaled_back.end() && *place == c;
+    const bool is_pinched = std::binary_search(pinched.begin(), pinched.end(), c);
+    std::string reason;
+    if (is_pinched) reason = "three edges of a corner lie on one smooth CAD face";
+    if (is_scaled) {
+      const double kept = rescue.kept[static_cast<std::size_t>(place - rescue.scaled_back.begin())];
+      reason += fmt::format("{}scaled back to {:.3g} of its displacement", reason.empty() ? "" : "; ", kept);
+    }
+    report.rescue.places.push_back({mesh.cell_tags[at(c)], mesh.cell_shape[at(c)], centre_of(mesh, c),
+                                    distance_missed(result, wall, placement, c), std::move(reason)});
+  }
+}
+
+void decide(const Association& association, const Placement& placement, const Wall& wall, const CurveOptions& options,
+            Report& report) {
+  std::size_t unplaced = 0;
+  for (std::size_t s = 0; s < wall.edge_count(); ++s) unplaced += placement.is_edge_unplaced(static_cast<Index>(s));
+  for (std::size_t s = 0; s < wall.face_count(); ++s) unplaced += placement.is_face_unplaced(static_cast<Index>(s));
+  if (unplaced > 0) {
+    report.warnings.push_back(fmt::format(
+        "{} wall edges or faces have a node that could not be put on its CAD entity; it stays straight", unplaced));
+  }
+  if (association.scale != 1.0) {
+    report.warnings.push_back(fmt::format("CAD lengths were multiplied by {:g} to fit the mesh", association.scale));
+  }
+  if (report.validity.invalid + report.validity.undecided > 0) {
+    report.status = "not_certified";
+  } else if (report.rescue.scaled_back > 0) {
+    report.status = "scaled_back";
+  } else if (unplaced > 0) {
+    report.status = "not_on_geometry";
+  } else if (options.strict && report.surface.faces_over_deviation > 0) {
+    report.status = "over_deviation";
+  }
+  report.exit_code = report.status == "ok" ? 0 : 3;
+}
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace
+
+void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& wall, const Placement& placement,
+               const Columns& columns, const RescueResult& rescue,
+               const CurveOptions& options) {
+  Report& report = result.report;
+  report.command = "curve";
+  report.threads = thread_count();
+  count_cells(result, options, report);
+  certify_cells(result, report);
+  measure_gaps(result, report);
+  measure_surface(result, geometry, wall, placement, options, report);
+  measure_wall_spacing(result, wall, columns, report);
+  list_rescue(result, wall, placement, rescue, report);
+  decide(result.association, placement, wall, options, report);
+  report.peak_bytes = peak_memory();
+}
+
+}  // namespace camber

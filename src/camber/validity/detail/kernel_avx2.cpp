@@ -1,0 +1,10 @@
+#include <camber/validity/detail/kernel.hpp>
+
+namespace camber::detail {
+
+void kernel_four_lanes(const KernelPlan& plan, const StraightView* straight, const double* nodes,
+                       double* work, const KernelOutput& out) {
+  kernel<4>(plan, straight, nodes, work, out);
+}
+
+}  // namespace camber::detail
