@@ -42,5 +42,6 @@ function(camber_test name)
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
-  gtest_discover_tests(${name} TEST_PREFIX "${name}/" PROPERTIES LABELS "${ARG_LABELS}" DISCOVERY_TIMEOUT 60)
+  # Values of parameters are bytes and addresses; the names alone are the same in every build.
+  gtest_discover_tests(${name} TEST_PREFIX "${name}/" NO_PRETTY_VALUES PROPERTIES LABELS "${ARG_LABELS}" DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -46,7 +46,7 @@ std::vector<Monomial> space(Shape shape, int p) {
 
 TEST(LagrangeSpace, ReproducesEveryMonomialAndItsGradient) {
   for (Shape shape : test::k_shapes) {
-    const Points points = test::inner_points(shape, 3);
+    const Points points = test::inner_points(shape, 2);
     for (int p = 1; p <= k_max_tested_order; ++p) {
       const Tabulation table = tabulate(shape, p, points);
       const std::vector<Monomial> monomials = space(shape, p);
@@ -72,7 +72,7 @@ TEST(LagrangeSpace, ReproducesEveryMonomialAndItsGradient) {
 }
 
 double volume(Shape shape, int p, const Points& nodes) {
-  const Quadrature& rule = gauss(shape, 3 * p);
+  const Quadrature& rule = gauss(shape, 4);  // the Jacobians here are of first degree at most
   double sum = 0;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     sum += rule.weights[q] * jacobian(shape, p, nodes, rule.points[q]).determinant();

@@ -72,21 +72,18 @@ INSTANTIATE_TEST_SUITE_P(Gmsh, SharedCase,
                            return name;
                          });
 
-TEST(SharedCases, EveryLayersMeshIsWatertightInVolume) {
+TEST(SharedCases, CellsHavePositiveVolume) {
   const fs::path folder = fs::path(CAMBER_SHARED_CASES) / "layers";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() != ".msh") continue;
-    const MeshData mesh = read_mesh(entry.path().string());
-    std::size_t e = 0;
-    const std::vector<double> sizes = measures(mesh);
-    for (const ElementBlock& b : mesh.blocks) {
-      for (std::size_t i = 0; i < b.size(); ++i, ++e) {
-        // All cells of these meshes are valid, so a wrong node order shows as a negative volume.
-        if (dimension(b.shape) < 3) continue;
-        ASSERT_GT(sizes[e], 0.0) << entry.path() << " cell " << b.tags[i];
-      }
-    }
+  for (const char* const name : {"sphere_hyb_2", "ellip_prism_2"}) {
+    MeshData mesh = read_mesh((folder / (std::string(name) + ".msh")).string());
+    std::erase_if(mesh.blocks, [](const ElementBlock& b) { return dimension(b.shape) < 3; });
+
+    // A wrong node order would show as a negative volume.
+    const std::vector<double> volumes = measures(mesh);
+
+    EXPECT_GT(volumes.size(), 2000U);
+    for (const double volume : volumes) ASSERT_GT(volume, 0.0) << name;
   }
 }
 

@@ -5,10 +5,10 @@
 #include <camber/io/gmsh/gmsh_reader.hpp>
 #include <camber/io/mesh_file.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iomanip>
 #include <limits>
-#include <map>
 #include <sstream>
 #include <sys/wait.h>
 
@@ -40,8 +40,10 @@ void write_expected(const MeshData& mesh, const std::string& path) {
   std::size_t e = 0;
   for (const ElementBlock& b : mesh.blocks) {
     for (std::size_t i = 0; i < b.size(); ++i, ++e) {
+      // Curved pyramids of high order are cut into linear cells; element 77777 is straight.
+      const bool is_cut = b.shape == Shape::pyramid && b.order > 2 && b.tags[i] != 77777;
       text << b.tags[i] << ' ' << e << ' ' << name(b.shape) << ' ' << b.order << ' '
-           << dimension(b.shape) << ' ' << sizes[e] << '\n';
+           << dimension(b.shape) << ' ' << sizes[e] << ' ' << (is_cut ? 5e-3 : 1e-10) << '\n';
     }
   }
   spill(path, text.str());
@@ -87,21 +89,15 @@ TEST_P(InGmsh, AFileThatGmshWritesAgainIsTheSameMesh) {
           scratch("again.msh") + " > " + scratch("log.txt"));
 
   ASSERT_EQ(code, 0) << slurp(scratch("log.txt"));
-  MeshData again = read_gmsh(scratch("again.msh"));
+  const MeshData again = read_gmsh(scratch("again.msh"));
   EXPECT_EQ(again.points.size(), mesh.points.size());
   EXPECT_EQ(again.element_count(), mesh.element_count());
-  const std::vector<double> before = measures(mesh);
-  std::map<GlobalId, double> after;
-  const std::vector<double> sizes = measures(again);
-  std::size_t e = 0;
-  for (const ElementBlock& b : again.blocks) {
-    for (const GlobalId tag : b.tags) after[tag] = sizes[e++];
-  }
-  e = 0;
-  for (const ElementBlock& b : mesh.blocks) {
-    for (const GlobalId tag : b.tags)
-      EXPECT_EQ(after.at(tag), before[e++]) << name(b.shape) << b.order;
-  }
+  // Gmsh numbers the elements of version 2.2 anew; the zoo has no two of equal measure.
+  std::vector<double> before = measures(mesh);
+  std::vector<double> after = measures(again);
+  std::sort(before.begin(), before.end());
+  std::sort(after.begin(), after.end());
+  EXPECT_EQ(after, before);
 }
 
 INSTANTIATE_TEST_SUITE_P(Flavours, InGmsh,
@@ -155,7 +151,10 @@ class InVtk : public testing::TestWithParam<bool> {};
 
 TEST_P(InVtk, EveryCellHasItsMeasureAndItsData) {
   MeshData mesh = zoo();
-  // A second element in a block, and a field with a value that is missing.
+  mesh.point_tags.clear();
+  mesh.point_entity.clear();
+  mesh.point_parameters.clear();
+  // A second element in a block, and a field with two values that are missing.
   const MeshData more = single(Shape::pyramid, 4, 0.0);
   const auto shift = static_cast<Index>(mesh.points.size());
   for (ElementBlock block : more.blocks) {
@@ -165,6 +164,7 @@ TEST_P(InVtk, EveryCellHasItsMeasureAndItsData) {
   }
   mesh.points.insert(mesh.points.end(), more.points.begin(), more.points.end());
   Field field{"size & <more>", measures(mesh)};
+  field.values.pop_back();
   field.values[10] = std::numeric_limits<double>::quiet_NaN();
   mesh.element_fields = {field};
   write_mesh(mesh, scratch("zoo.vtu"), {.binary = GetParam()});

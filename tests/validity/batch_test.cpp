@@ -1,12 +1,12 @@
-#include "elements.hpp"
+#include <camber/base/parallel.hpp>
+#include <camber/validity/batch.hpp>
 
 #include <cstring>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
-#include <camber/base/parallel.hpp>
-#include <camber/validity/batch.hpp>
+#include "elements.hpp"
 
 namespace camber {
 namespace {

@@ -1,9 +1,9 @@
-#include "elements.hpp"
+#include <camber/reference/sampled_jacobian.hpp>
+#include <camber/validity/element_validity.hpp>
 
 #include <gtest/gtest.h>
 
-#include <camber/reference/sampled_jacobian.hpp>
-#include <camber/validity/element_validity.hpp>
+#include "elements.hpp"
 
 namespace camber {
 namespace {
@@ -64,8 +64,7 @@ TEST(CertifyFace, BoundsContainDenseSamplesAndVerdictsAreNeverContradicted) {
   for (Shape shape : face_shapes()) {
     for (int p = 1; p <= 4; ++p) {
       for (int trial = 0; trial < 20; ++trial) {
-        const Points nodes =
-            testing::random_element(shape, p, 0.03 * (trial + 1) / p, generator);
+        const Points nodes = testing::random_element(shape, p, 0.03 * (trial + 1) / p, generator);
         const JacobianBounds bounds = certify_face(shape, p, nodes);
         const reference::SampledRange range = reference::sampled_normal(shape, p, nodes, 20);
 
@@ -109,8 +108,7 @@ TEST(CertifyFace, TurnsWithTheFace) {
     const JacobianBounds before = certify_face(shape, 3, nodes);
 
     const JacobianBounds after = certify_face(
-        shape, 3,
-        testing::transformed(nodes, [&](const Vec3& x) { return Vec3(1e3 * (R * x)); }));
+        shape, 3, testing::transformed(nodes, [&](const Vec3& x) { return Vec3(1e3 * (R * x)); }));
 
     EXPECT_EQ(after.verdict, before.verdict);
     EXPECT_NEAR(after.min_lower, before.min_lower, 1e-10);

@@ -1,12 +1,13 @@
-// The coefficients themselves: against the naive solve, by count, and the same bits for all kernels.
-#include "elements.hpp"
+// The coefficients themselves: against the naive solve, by count, and the same bits for all
+// kernels.
+#include <camber/reference/naive_bernstein.hpp>
+#include <camber/validity/detail/element_bounds.hpp>
 
 #include <cstring>
 
 #include <gtest/gtest.h>
 
-#include <camber/reference/naive_bernstein.hpp>
-#include <camber/validity/detail/element_bounds.hpp>
+#include "elements.hpp"
 
 namespace camber {
 namespace {
@@ -39,10 +40,11 @@ TEST(Coefficients, AreAsManyAsTheDegreesSay) {
     return detail::DeterminantPlan::of(shape, p).kernel().size;
   };
 
-  const std::vector<std::array<int, 6>> expected{
-      // p, triangle, tet, prism, hex, pyramid
-      {1, 1, 1, 9, 27, 6}, {2, 6, 20, 90, 216, 120}, {3, 15, 84, 324, 729, 504},
-      {4, 28, 220, 792, 1728, 1320}};
+  const std::vector<std::array<int, 6>> expected{// p, triangle, tet, prism, hex, pyramid
+                                                 {1, 1, 1, 9, 27, 6},
+                                                 {2, 6, 20, 90, 216, 120},
+                                                 {3, 15, 84, 324, 729, 504},
+                                                 {4, 28, 220, 792, 1728, 1320}};
 
   for (const auto& [p, triangle, tet, prism, hex, pyramid] : expected) {
     EXPECT_EQ(count(Shape::triangle, p), triangle);
@@ -64,8 +66,7 @@ TEST(Coefficients, EqualTheNaiveSolve) {
   for (const auto& [shape, p] : kinds) {
     const Points nodes = testing::random_element(shape, p, 0.2 / p, generator);
     const reference::NaiveBernstein naive = reference::naive_bernstein(shape, p, nodes);
-    const std::vector<double> fast =
-        coefficients(shape, p, nodes, detail::scalar_kernel(), 0);
+    const std::vector<double> fast = coefficients(shape, p, nodes, detail::scalar_kernel(), 0);
 
     ASSERT_EQ(static_cast<int>(naive.coefficients.size()),
               detail::DeterminantPlan::of(shape, p).kernel().size);
@@ -95,9 +96,8 @@ TEST(Coefficients, HaveTheSameBitsInEveryLaneOfEveryKernel) {
 
 TEST(Coefficients, OfTheStraightCopyAreRaisedWithoutChange) {
   // Hexahedron [0,1]^2 x [0,2]: det J = 2 everywhere, so every coefficient of any degree is 2.
-  const Points nodes = testing::mapped(Shape::hexahedron, 3, [](const Vec3& xi) {
-    return Vec3(xi.x(), xi.y(), 2.0 * xi.z());
-  });
+  const Points nodes = testing::mapped(
+      Shape::hexahedron, 3, [](const Vec3& xi) { return Vec3(xi.x(), xi.y(), 2.0 * xi.z()); });
 
   const std::vector<double> all =
       coefficients(Shape::hexahedron, 3, nodes, detail::scalar_kernel(), 0);

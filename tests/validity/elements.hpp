@@ -1,13 +1,13 @@
 #pragma once
 // Curved elements for the tests: maps of the reference lattice, and random ones.
+#include <camber/basis/lagrange.hpp>
+#include <camber/basis/lattice.hpp>
+
 #include <functional>
 #include <random>
 #include <vector>
 
 #include <Eigen/Geometry>
-
-#include <camber/basis/lagrange.hpp>
-#include <camber/basis/lattice.hpp>
 
 namespace camber::testing {
 
@@ -32,7 +32,8 @@ inline Vec3 random_vector(std::mt19937& generator) {
 
 /// The reference element with every node moved by up to `amplitude` in each direction.
 inline Points random_element(Shape shape, int p, double amplitude, std::mt19937& generator) {
-  return mapped(shape, p, [&](const Vec3& xi) { return Vec3(xi + amplitude * random_vector(generator)); });
+  return mapped(shape, p,
+                [&](const Vec3& xi) { return Vec3(xi + amplitude * random_vector(generator)); });
 }
 
 inline Points transformed(Points nodes, const std::function<Vec3(const Vec3&)>& f) {

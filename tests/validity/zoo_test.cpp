@@ -1,12 +1,12 @@
 // Inverted elements that nodes, corners and sub-simplices do not reveal, and degenerate ones.
-#include "elements.hpp"
+#include <camber/reference/sampled_jacobian.hpp>
+#include <camber/validity/element_validity.hpp>
 
 #include <array>
 
 #include <gtest/gtest.h>
 
-#include <camber/reference/sampled_jacobian.hpp>
-#include <camber/validity/element_validity.hpp>
+#include "elements.hpp"
 
 namespace camber {
 namespace {
@@ -18,9 +18,8 @@ using testing::volume_shapes;
 double quadratic_edge(double s, double m) { return s + (4.0 * m - 2.0) * s * (1.0 - s); }
 
 Points extruded_edge(Shape shape, int p, double m) {
-  return mapped(shape, p, [m](const Vec3& xi) {
-    return Vec3(quadratic_edge(xi.x(), m), xi.y(), xi.z());
-  });
+  return mapped(shape, p,
+                [m](const Vec3& xi) { return Vec3(quadratic_edge(xi.x(), m), xi.y(), xi.z()); });
 }
 
 // All sub-hexahedra of the lattice, by the determinant at each of their corners.
@@ -35,11 +34,11 @@ bool sub_hexahedra_are_positive(int p, const Points& nodes) {
         LatticePoint to = from;
         from[axis] = a[axis];
         to[axis] = a[axis] + 1;
-        if (*std::max_element(from.begin(), from.end()) > p || to[axis] > p) edges.setIdentity();
+        if (*std::max_element(from.begin(), from.end()) > p || to[axis] > p)
+          edges.setIdentity();
         else
-          edges.col(d) =
-              nodes[static_cast<std::size_t>(lattice_index(Shape::hexahedron, p, to))] -
-              nodes[static_cast<std::size_t>(lattice_index(Shape::hexahedron, p, from))];
+          edges.col(d) = nodes[static_cast<std::size_t>(lattice_index(Shape::hexahedron, p, to))] -
+                         nodes[static_cast<std::size_t>(lattice_index(Shape::hexahedron, p, from))];
       }
       if (edges.determinant() <= 0.0) return false;
     }
@@ -170,8 +169,8 @@ TEST(Zoo, CollapsedCornersAreNeverValid) {
 }
 
 TEST(Zoo, TetWithTwoFacesOnOneSmoothSurfaceIsNotValid) {
-  // Corners 0 and 1 on the edge, 2 and 3 in the plane z = 0 of the surface at that edge: the two faces are
-  // tangent there, J = 0 along the edge, whatever the rest does.
+  // Corners 0 and 1 on the edge, 2 and 3 in the plane z = 0 of the surface at that edge: the two
+  // faces are tangent there, J = 0 along the edge, whatever the rest does.
   Points nodes = mapped(Shape::tetrahedron, 2, [](const Vec3& xi) {
     const double y = xi.y() - xi.z();
     return Vec3(xi.x(), y, 0.5 * (xi.y() + xi.z()) * (xi.y() + xi.z()));

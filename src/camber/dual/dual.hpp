@@ -1,5 +1,6 @@
 #pragma once
-// Forward-mode dual numbers: a value and its N partial derivatives, carried through every operation.
+// Forward-mode dual numbers: a value and its N partial derivatives, carried through every
+// operation.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -9,9 +10,10 @@
 
 namespace camber {
 
-/// v + sum_i d[i] e_i with e_i e_j = 0: f(Dual) has the value f(v) and the derivatives f'(v) d (chain
-/// rule). Comparisons look at the value only. A literal or double is a constant (derivatives 0).
-/// Source: [karman2022] section 2.2.5 "Marching Direction" (operator overloading of dual numbers).
+/// v + sum_i d[i] e_i with e_i e_j = 0: f(Dual) has the value f(v) and the derivatives f'(v) d
+/// (chain rule). Comparisons look at the value only. A literal or double is a constant (derivatives
+/// 0). Source: [karman2022] section 2.2.5 "Marching Direction" (operator overloading of dual
+/// numbers).
 template <int N>
 struct Dual {
   double v = 0.0;
@@ -34,7 +36,9 @@ struct Dual {
   Dual& operator/=(const Dual& b) { return *this = *this / b; }
 
   friend Dual operator+(const Dual& a, const Dual& b) { return combine(a.v + b.v, 1.0, a, 1.0, b); }
-  friend Dual operator-(const Dual& a, const Dual& b) { return combine(a.v - b.v, 1.0, a, -1.0, b); }
+  friend Dual operator-(const Dual& a, const Dual& b) {
+    return combine(a.v - b.v, 1.0, a, -1.0, b);
+  }
   friend Dual operator*(const Dual& a, const Dual& b) { return combine(a.v * b.v, b.v, a, a.v, b); }
   friend Dual operator/(const Dual& a, const Dual& b) {
     const double q = a.v / b.v;

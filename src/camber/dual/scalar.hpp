@@ -1,12 +1,12 @@
 #pragma once
 // What a formula needs from its number type, so that it is written once for double and for Dual.
+#include <camber/base/vec.hpp>
+#include <camber/dual/dual.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
-
-#include <camber/base/vec.hpp>
-#include <camber/dual/dual.hpp>
 
 namespace camber {
 
@@ -27,10 +27,14 @@ using Vec = Eigen::Matrix<T, d, 1>;
 /// The plain value, without derivatives.
 [[nodiscard]] inline double value(double x) { return x; }
 template <int N>
-[[nodiscard]] double value(const Dual<N>& x) { return x.v; }
+[[nodiscard]] double value(const Dual<N>& x) {
+  return x.v;
+}
 
 template <Scalar T>
-[[nodiscard]] T infinity() { return T(std::numeric_limits<double>::infinity()); }
+[[nodiscard]] T infinity() {
+  return T(std::numeric_limits<double>::infinity());
+}
 
 /// |M|_F, the root of the sum of squares of all entries of a matrix or vector.
 template <class Derived>

@@ -11,11 +11,21 @@ constexpr int k_max_halvings = 12;
 // A full Newton step shorter than this (of the size) leaves an error of its square.
 constexpr double k_quadratic_step = 1e-8;
 // Steps below this (of the size) are round-off of the evaluation.
-constexpr double k_smallest_step = 1e-13;
+constexpr double k_smallest_step = 1e-14;
 // A derivative this much shorter than the other one, per parameter range, is a pole.
 constexpr double k_singular = 1e-12;
-// Growth of the squared distance that round-off explains.
+// Eigenvalues of the scaled Hessian (1 near the surface) below this part of the larger one are
+// raised to it.
+constexpr double k_least_curvature = 1e-3;
+// Round-off of a point, relative to the coordinates that it was computed from.
 constexpr double k_round_off = 1e-15;
+
+/// Growth of a squared distance that round-off of its points explains.
+struct Noise {
+  Noise(const Vec3& x, double size) : point(k_round_off * (size + x.norm())) {}
+  double operator()(double squared) const { return point * (std::sqrt(squared) + point); }
+  double point;
+};
 
 /// Residual and derivatives as the search sees them: whole, or projected across a direction.
 struct Local {
@@ -40,6 +50,21 @@ struct Step {
   bool is_newton = false;
 };
 
+/// Newton step with the Hessian's eigenvalues, taken in arc length units, replaced by their size: a
+/// descent direction where the Hessian is indefinite.
+Vec2 reflected_step(const Vec2& gradient, double Hu, double Hm, double Hv, double E, double G) {
+  const Vec2 unit(1.0 / std::sqrt(E), 1.0 / std::sqrt(G));
+  const double a = Hu * unit[0] * unit[0], b = Hm * unit[0] * unit[1], c = Hv * unit[1] * unit[1];
+  const Vec2 g = gradient.cwiseProduct(unit);
+  const double angle = 0.5 * std::atan2(2.0 * b, a - c);  // of the first eigenvector
+  const Vec2 v(std::cos(angle), std::sin(angle)), w(-v[1], v[0]);
+  const double lv = std::abs(a * v[0] * v[0] + 2.0 * b * v[0] * v[1] + c * v[1] * v[1]);
+  const double lw = std::abs(a * w[0] * w[0] + 2.0 * b * w[0] * w[1] + c * w[1] * w[1]);
+  const double floor = k_least_curvature * std::max({lv, lw, 1.0});
+  const Vec2 step = -(g.dot(v) / std::max(lv, floor)) * v - (g.dot(w) / std::max(lw, floor)) * w;
+  return step.cwiseProduct(unit);
+}
+
 /// Descent step of the quadratic model; a parameter pressed against its limit stays.
 template <class Across>
 Step model_step(const Local& l, const Across& across, const Vec2& uv, const UvBox& limits,
@@ -47,7 +72,7 @@ Step model_step(const Local& l, const Across& across, const Vec2& uv, const UvBo
   const Vec3 a = across(l.jet.su), b = across(l.jet.sv);
   const Vec2 gradient(l.r.dot(a), l.r.dot(b));
   const Vec2 range = limits.upper - limits.lower;
-  double E = a.squaredNorm(), F = a.dot(b), G = b.squaredNorm();
+  const double E = a.squaredNorm(), F = a.dot(b), G = b.squaredNorm();
   const double su = E * range[0] * range[0], sv = G * range[1] * range[1];
   bool is_free[2] = {su > k_singular * k_singular * sv, sv > k_singular * k_singular * su};
   for (int k = 0; k < 2; ++k) {
@@ -69,11 +94,7 @@ Step model_step(const Local& l, const Across& across, const Vec2& uv, const UvBo
           -Vec2(Hv * gradient[0] - Hm * gradient[1], Hu * gradient[1] - Hm * gradient[0]) / det;
       step.is_newton = true;
     } else {
-      const double damping = 1e-3;  // of Levenberg and Marquardt, relative to the diagonal
-      E *= 1.0 + damping;
-      G *= 1.0 + damping;
-      step.uv = -Vec2(G * gradient[0] - F * gradient[1], E * gradient[1] - F * gradient[0]) /
-                (E * G - F * F);
+      step.uv = reflected_step(gradient, Hu, Hm, Hv, E, G);
     }
   } else {
     for (int k = 0; k < 2; ++k) {
@@ -95,6 +116,7 @@ SurfaceFoot descend(const ParametricSurface& surface, const Vec3& x, const Vec2&
       if (periods[k] <= 0.0) uv[k] = std::clamp(uv[k], limits.lower[k], limits.upper[k]);
     return uv;
   };
+  const Noise noise(x, size);
   Vec2 uv = inside(start);
   Local local = evaluate(surface, x, uv, across);
   SurfaceFoot foot;
@@ -109,10 +131,11 @@ SurfaceFoot descend(const ParametricSurface& surface, const Vec3& x, const Vec2&
     }
     bool is_down = false;
     int halvings = 0;
+    const double before = local.f;
     for (; halvings <= k_max_halvings && !is_down; ++halvings) {
       const Vec2 trial = uv + move;
       const Local next = evaluate(surface, x, trial, across);
-      if (next.f <= local.f * (1.0 + k_round_off) + k_round_off * k_round_off * size * size) {
+      if (next.f <= local.f + noise(local.f)) {
         is_down = true;
         uv = trial;
         local = next;
@@ -121,7 +144,8 @@ SurfaceFoot descend(const ParametricSurface& surface, const Vec3& x, const Vec2&
       }
     }
     const bool is_short = length < k_quadratic_step * size;
-    if (!is_down || (is_short && step.is_newton && halvings == 1)) {
+    const bool is_noise = is_short && local.f >= before;
+    if (!is_down || is_noise || (is_short && step.is_newton && halvings == 1)) {
       foot.is_converged = is_short;  // short and not down: at the round-off of the distance
       foot.tangential = model_step(local, across, uv, limits, periods).tangential;
       break;
@@ -150,6 +174,7 @@ CurveFoot find_foot(const ParametricCurve& curve, const Vec3& x, double start, d
                     double last, double size) {
   const bool is_closed = curve.period() > 0.0;
   const auto inside = [&](double t) { return is_closed ? t : std::clamp(t, first, last); };
+  const Noise noise(x, size);
   double t = inside(start);
   CurveJet jet = curve.jet(t);
   Vec3 r = jet.c - x;
@@ -169,11 +194,11 @@ CurveFoot find_foot(const ParametricCurve& curve, const Vec3& x, double start, d
     }
     bool is_down = false;
     int halvings = 0;
+    const double before = f;
     for (; halvings <= k_max_halvings && !is_down; ++halvings) {
       const CurveJet next = curve.jet(t + move);
       const Vec3 next_r = next.c - x;
-      if (next_r.squaredNorm() <=
-          f * (1.0 + k_round_off) + k_round_off * k_round_off * size * size) {
+      if (next_r.squaredNorm() <= f + noise(f)) {
         is_down = true;
         t += move;
         jet = next;
@@ -184,7 +209,8 @@ CurveFoot find_foot(const ParametricCurve& curve, const Vec3& x, double start, d
       }
     }
     const bool is_short = length < k_quadratic_step * size;
-    if (!is_down || (is_short && is_newton && halvings == 1)) {
+    const bool is_noise = is_short && f >= before;
+    if (!is_down || is_noise || (is_short && is_newton && halvings == 1)) {
       foot.is_converged = is_short;
       const double speed = jet.ct.norm();
       foot.tangential = speed > 0.0 ? std::abs(r.dot(jet.ct)) / speed : 0.0;

@@ -28,8 +28,8 @@ struct CurveFoot {
 };
 
 /// Minimises |S(u,v) - x|^2 from `start` by Newton's method within `limits`, never going up; a
-/// direction that is periodic has no limits. Where the Hessian is not positive, or a derivative
-/// vanishes (poles), the Gauss-Newton step is taken.
+/// direction that is periodic has no limits. Where the Hessian is not positive its
+/// eigenvalues are reflected; where a derivative vanishes (poles) its parameter rests.
 /// @param size  length of the surface, unit of the stopping test: steps below 1e-12 size
 /// Cost: 3 to 5 jets from a good start. Reentrant, no allocation.
 [[nodiscard]] SurfaceFoot find_foot(const ParametricSurface& surface, const Vec3& x,

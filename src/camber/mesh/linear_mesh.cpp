@@ -7,6 +7,7 @@
 
 #include <camber/base/error.hpp>
 #include <camber/base/parallel.hpp>
+#include <camber/mesh/sew.hpp>
 #include <camber/validity/element_validity.hpp>
 
 namespace camber {
@@ -163,6 +164,7 @@ LinearMesh build_linear_mesh(const MeshData& data) {
     throw MeshError("the mesh has no volume cells (tet, pyramid, prism, hex)", data.source,
                     "export the volume mesh; in Gmsh put it in a physical group or set Mesh.SaveAll=1");
   }
+  mesh.sewn_vertices = sew_coincident_vertices(mesh);
   drop_unused_vertices(mesh);
   for (const Vec3& x : mesh.vertices) mesh.box.add(x);
   refuse_inverted_cells(mesh, data.source);

@@ -35,6 +35,7 @@ struct LinearMesh {
   std::vector<EntityRecord> entities;
   std::vector<PhysicalName> physical_names;
   Box box;
+  std::size_t sewn_vertices = 0;  // joined by sew_coincident_vertices
 
   [[nodiscard]] std::size_t cell_count() const { return cell_shape.size(); }
   [[nodiscard]] std::span<const Index> cell(Index c) const {
@@ -48,7 +49,7 @@ struct LinearMesh {
 };
 
 /// Makes the linear mesh and checks that it can be curved: volume cells present, corners only (order 1),
-/// every cell certified positive.
+/// every cell certified positive. Parts that touch without sharing vertices are sewn (sew.hpp).
 /// @throws MeshError listing the first ten inverted or degenerate cells with number, shape and centre.
 [[nodiscard]] LinearMesh build_linear_mesh(const MeshData& data);
 

@@ -1,8 +1,8 @@
 #pragma once
+#include <camber/dual/scalar.hpp>
+
 #include <algorithm>
 #include <span>
-
-#include <camber/dual/scalar.hpp>
 
 namespace camber {
 

@@ -5,8 +5,8 @@
 namespace camber {
 
 /// Cost of a sub-simplex or point:  C = min(1, tau) / WCN;  C = tau where tau <= 0.
-/// Source: [karman2022] eq. (2) and the rule after eq. (5): where it is inverted the condition number is
-/// not computed, so that inversion is repaired before shape.
+/// Source: [karman2022] eq. (2) and the rule after eq. (5): where it is inverted the condition
+/// number is not computed, so that inversion is repaired before shape.
 /// @param tau  normalised Jacobian [-]
 /// @param WCN  weighted condition number >= 1 [-]
 /// @return     in (-inf, 1] [-]; 1 iff tau >= 1 and the shape is ideal. A reward: larger is better.

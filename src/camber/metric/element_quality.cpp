@@ -1,3 +1,6 @@
+#include <camber/basis/lagrange.hpp>
+#include <camber/basis/quadrature.hpp>
+#include <camber/metric/cost.hpp>
 #include <camber/metric/element_quality.hpp>
 
 #include <algorithm>
@@ -8,10 +11,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <camber/basis/lagrange.hpp>
-#include <camber/basis/quadrature.hpp>
-#include <camber/metric/cost.hpp>
-
 namespace camber {
 
 namespace {
@@ -21,8 +20,8 @@ constexpr int k_highest_order = 16;
 
 // Gradients of the curved and of the straight basis at the survey points, stacked by direction.
 struct SurveyTable {
-  MatX curved;    // (dim * points) x nodes
-  MatX straight;  // (dim * points) x corners of (shape, 1)
+  MatX curved;                   // (dim * points) x nodes
+  MatX straight;                 // (dim * points) x corners of (shape, 1)
   std::vector<int> corner_node;  // node of order p at node n of order 1
   Eigen::Index points = 0;
 };
@@ -123,8 +122,8 @@ ElementCost element_cost(Shape shape, int p, std::span<const Vec3> nodes) {
       }
       c = volume_cost(A, W);
     } else {
-      c = surface_cost(dx.row(q).transpose(), dx.row(points + q).transpose(),
-                       dX.row(q).transpose(), dX.row(points + q).transpose());
+      c = surface_cost(dx.row(q).transpose(), dx.row(points + q).transpose(), dX.row(q).transpose(),
+                       dX.row(points + q).transpose());
     }
     sum += c;
     result.minimum = std::min(result.minimum, c);

@@ -4,8 +4,8 @@
 namespace camber {
 
 /// Normalised Jacobian tau = Jp/Jc = det(A W^-1): physical over computational volume.
-/// Source: [karman2022] eq. (2), (3), "Volume Normalized Jacobian"; on a sub-simplex A and W are edge
-/// matrices, at a point of the element the Jacobians of the two maps.
+/// Source: [karman2022] eq. (2), (3), "Volume Normalized Jacobian"; on a sub-simplex A and W are
+/// edge matrices, at a point of the element the Jacobians of the two maps.
 /// @param A      shape (d,d) [length]
 /// @param W_inv  shape (d,d), inverse of the same matrix of the straight copy [1/length]
 /// @return       tau [-]; <= 0 where the element is inverted
@@ -15,9 +15,9 @@ template <Scalar T, int d>
   return S.determinant();
 }
 
-/// The same for a surface: |n| / |N| with the sign of n . N, n = a1 x a2 and N = w1 x w2 the normals of
-/// the physical and the computational face at the same xi.
-/// Source: [karman2022] "Surface Normalized Jacobian".
+/// The same for a surface: |n| / |N| with the sign of n . N, n = a1 x a2 and N = w1 x w2 the
+/// normals of the physical and the computational face at the same xi. Source: [karman2022] "Surface
+/// Normalized Jacobian".
 /// @param n, N  normals, lengths = area per reference area [length^2]; N must not vanish
 /// @return      [-]
 template <Scalar T>

@@ -4,7 +4,8 @@
 
 namespace camber {
 
-/// Numerator and denominator of eq. (1) for one face; add them up over faces to average over a group.
+/// Numerator and denominator of eq. (1) for one face; add them up over faces to average over a
+/// group.
 struct ShapeConformity {
   double integral = 0.0;  // of the distance over the face [length^3]
   double area = 0.0;      // [length^2]

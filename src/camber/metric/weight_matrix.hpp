@@ -1,14 +1,14 @@
 #pragma once
-#include <array>
-
 #include <camber/dual/scalar.hpp>
+
+#include <array>
 
 namespace camber {
 
 /// Edge matrix of a simplex from its vertices: column c = x[c+1] - x[0].
 /// @param x  d + 1 vertices [length]
 template <Scalar T, int d>
-[[nodiscard]] Mat<T, d> edge_matrix(const std::array<Vec<T, d>, d + 1>& x) {
+[[nodiscard]] Mat<T, d> edge_matrix(const std::array<Vec<T, d>, std::size_t{d} + 1>& x) {
   Mat<T, d> A;
   for (int c = 0; c < d; ++c) A.col(c) = x[static_cast<std::size_t>(c + 1)] - x[0];
   return A;
@@ -18,7 +18,8 @@ template <Scalar T, int d>
 ///   W = [ l01   l02 cos t ]      cos t = (l01^2 + l02^2 - l12^2) / (2 l01 l02)
 ///       [ 0     l02 sin t ]
 /// Source: [karman2022] Fig. 6. Equal to the matrix of edge vectors up to a rotation.
-/// @param lengths  l01, l02, l12 > 0 [length]; squares of lengths that fit no triangle give sin t = 0
+/// @param lengths  l01, l02, l12 > 0 [length]; squares of lengths that fit no triangle give sin t =
+/// 0
 /// @return         upper triangular, det W = twice the area >= 0 [length^2]
 template <Scalar T>
 [[nodiscard]] Mat<T, 2> triangle_weight_matrix(const std::array<T, 3>& lengths) {
@@ -33,10 +34,11 @@ template <Scalar T>
   return W;
 }
 
-/// Edge matrix of a tetrahedron from the lengths of its six edges: vertex 1 on the first axis, vertex 2
-/// in the first plane, vertex 3 above it (the Cholesky factor of the Gram matrix of the edges).
-/// Source: [karman2022] Fig. 9. Equal to the matrix of edge vectors up to a rotation (or reflection: the
-/// lengths do not know the orientation; the ideal tetrahedron is taken as positive).
+/// Edge matrix of a tetrahedron from the lengths of its six edges: vertex 1 on the first axis,
+/// vertex 2 in the first plane, vertex 3 above it (the Cholesky factor of the Gram matrix of the
+/// edges). Source: [karman2022] Fig. 9. Equal to the matrix of edge vectors up to a rotation (or
+/// reflection: the lengths do not know the orientation; the ideal tetrahedron is taken as
+/// positive).
 /// @param lengths  l01, l02, l03, l12, l13, l23 > 0 [length]
 /// @return         upper triangular, det W = six times the volume >= 0 [length^3]
 template <Scalar T>

@@ -313,6 +313,21 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
   }
 }
 
+void warn(const CurveResult& result, Report& report) {
+  if (result.linear->sewn_vertices > 0) {
+    report.warnings.push_back(
+        fmt::format("{} vertices had a twin at the same place and were joined: the parts of the mesh did not "
+                    "share their nodes",
+                    result.linear->sewn_vertices));
+  }
+  for (const Patch& patch : result.association.patches) {
+    if (patch.entity == 0) {
+      report.warnings.push_back(fmt::format(
+          "{} boundary faces have no surface element and stay straight", patch.faces));
+    }
+  }
+}
+
 void decide(const Association& association, const Placement& placement, const Wall& wall, const CurveOptions& options,
             Report& report) {
   std::size_t unplaced = 0;
@@ -357,6 +372,7 @@ void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& w
   measure_surface(result, geometry, wall, placement, options, report);
   measure_wall_spacing(result, wall, columns, report);
   list_rescue(result, wall, placement, rescue, report);
+  warn(result, report);
   decide(result.association, placement, wall, options, report);
   report.peak_bytes = peak_memory();
 }

@@ -1,5 +1,4 @@
 #include <camber/reference/naive_bernstein.hpp>
-
 #include <camber/reference/sampled_jacobian.hpp>
 
 namespace camber::reference {

@@ -1,8 +1,7 @@
+#include <camber/basis/lagrange.hpp>
 #include <camber/reference/sampled_jacobian.hpp>
 
 #include <limits>
-
-#include <camber/basis/lagrange.hpp>
 
 namespace camber::reference {
 
@@ -49,8 +48,7 @@ SampledRange sampled_jacobian(Shape shape, int p, std::span<const Vec3> nodes, i
 SampledRange sampled_ratio(Shape shape, int p, std::span<const Vec3> nodes, int n) {
   const Points straight = straight_nodes(shape, p, corner_points(shape, p, nodes));
   return sample(shape, n, [&](const Vec3& xi) {
-    return jacobian_determinant(shape, p, nodes, xi) /
-           jacobian_determinant(shape, p, straight, xi);
+    return jacobian_determinant(shape, p, nodes, xi) / jacobian_determinant(shape, p, straight, xi);
   });
 }
 

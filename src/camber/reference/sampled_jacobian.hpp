@@ -1,8 +1,8 @@
 #pragma once
 // The obvious way to look at det J: evaluate it in many points. For tests; never a certificate.
-#include <span>
-
 #include <camber/basis/shape.hpp>
+
+#include <span>
 
 namespace camber::reference {
 
@@ -15,8 +15,8 @@ struct SampledRange {
 [[nodiscard]] double jacobian_determinant(Shape shape, int p, std::span<const Vec3> nodes,
                                           const Vec3& xi);
 
-/// Lowest and highest determinant over the points of the lattice of order n; a pyramid's apex, where the
-/// limit depends on the direction, is left out.
+/// Lowest and highest determinant over the points of the lattice of order n; a pyramid's apex,
+/// where the limit depends on the direction, is left out.
 [[nodiscard]] SampledRange sampled_jacobian(Shape shape, int p, std::span<const Vec3> nodes, int n);
 
 /// The same of Jp/Jc against the straight copy (volume shapes).

@@ -1,11 +1,10 @@
+#include <camber/base/parallel.hpp>
 #include <camber/validity/batch.hpp>
+#include <camber/validity/detail/element_bounds.hpp>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-
-#include <camber/base/parallel.hpp>
-#include <camber/validity/detail/element_bounds.hpp>
 
 namespace camber {
 
@@ -13,7 +12,8 @@ namespace {
 
 using detail::DeterminantPlan;
 
-// Elements gathered before they are sorted into lanes; fixed, so results do not depend on the threads.
+// Elements gathered before they are sorted into lanes; fixed, so results do not depend on the
+// threads.
 constexpr std::size_t k_chunk = 256;
 
 struct Gathered {
@@ -55,8 +55,8 @@ void gather_chunk(std::size_t begin, std::size_t end, const GatherNodes& gather,
                    });
 }
 
-// Runs the kernel on elements [first, first + count) of one kind, count <= lanes; idle lanes repeat the
-// first element.
+// Runs the kernel on elements [first, first + count) of one kind, count <= lanes; idle lanes repeat
+// the first element.
 detail::KernelRun run_lanes(const Chunk& chunk, std::size_t first, std::size_t count,
                             bool with_straight, detail::KernelChoice kernel,
                             detail::ElementWork& work) {
@@ -94,10 +94,9 @@ void for_each_lane(std::size_t n, const GatherNodes& gather, bool with_straight,
       while (first < last) {
         const bool alone = last - first == 1;
         const detail::KernelChoice kernel = alone ? detail::scalar_kernel() : widest;
-        const std::size_t count =
-            std::min(last - first, static_cast<std::size_t>(kernel.lanes));
-        const detail::KernelRun run = run_lanes(
-            chunk, first, count, with_straight && head.kind.order > 1, kernel, work);
+        const std::size_t count = std::min(last - first, static_cast<std::size_t>(kernel.lanes));
+        const detail::KernelRun run =
+            run_lanes(chunk, first, count, with_straight && head.kind.order > 1, kernel, work);
         for (std::size_t lane = 0; lane < count; ++lane) {
           visit(run, static_cast<int>(lane), chunk.elements[first + lane], work);
         }

@@ -1,9 +1,8 @@
+#include <camber/validity/detail/element_bounds.hpp>
 #include <camber/validity/element_validity.hpp>
 
 #include <stdexcept>
 #include <string>
-
-#include <camber/validity/detail/element_bounds.hpp>
 
 namespace camber {
 

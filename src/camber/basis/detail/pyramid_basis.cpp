@@ -113,9 +113,10 @@ void pyramid_gradients(int p, const Vec3& xi, std::span<Vec3> dN) {
                             (at.a * dA + at.b * dB) * power * P + AB * dC);
         slopes.row(n) = scale * gradient.transpose();
       });
-  const MatX& W = nodal_from_modal(p);
-  for (Eigen::Index n = 0; n < slopes.rows(); ++n) {
-    dN[static_cast<std::size_t>(n)] = (W.row(n) * slopes).transpose();
+  thread_local Eigen::Matrix<double, Eigen::Dynamic, 3> result;
+  result.noalias() = nodal_from_modal(p) * slopes;
+  for (Eigen::Index n = 0; n < result.rows(); ++n) {
+    dN[static_cast<std::size_t>(n)] = result.row(n).transpose();
   }
 }
 

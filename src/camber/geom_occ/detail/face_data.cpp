@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <BRepTools.hxx>
+#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
@@ -61,6 +62,7 @@ FaceData::FaceData(const TopoDS_Face& shape, const std::vector<std::pair<int, To
 
   gap = std::max(BRep_Tool::Tolerance(face), Precision::Confusion());
   is_rectangle = true;
+  std::vector<TrimGrid::Loop> loops;
   for (const auto& [tag, part] : parts) {
     const TopoDS_Edge edge = TopoDS::Edge(part);
     FaceEdge item;
@@ -74,9 +76,16 @@ FaceData::FaceData(const TopoDS_Face& shape, const std::vector<std::pair<int, To
                                                   face, first, last);
     is_rectangle = is_rectangle && is_on_side(item.curve, first, last, limits) &&
                    (!item.is_seam() || is_on_side(item.seam_curve, first, last, limits));
+    loops.push_back({item.curve, first, last});
+    if (item.is_seam()) loops.push_back({item.seam_curve, first, last});
     if (!BRep_Tool::Degenerated(edge)) gap = std::max(gap, BRep_Tool::Tolerance(edge));
     edges.push_back(item);
   }
+  if (is_rectangle) return;
+  BRepTopAdaptor_FClass2d exact(face, k_on_side * (limits.upper - limits.lower).minCoeff());
+  trim = TrimGrid(limits, loops, [&](const Vec2& uv) {
+    return exact.Perform(gp_Pnt2d(uv[0], uv[1]), true) != TopAbs_OUT;
+  });
 }
 
 const FaceEdge* FaceData::find(int edge) const {

@@ -2,6 +2,7 @@
 // Private: one CAD face, ready for queries; shared by all projectors, lengths in the kernel's unit.
 #include <camber/geom/surface_tree.hpp>
 #include <camber/geom_occ/detail/curve_data.hpp>
+#include <camber/geom_occ/detail/trim_grid.hpp>
 
 #include <memory>
 #include <optional>
@@ -37,6 +38,7 @@ struct FaceData {
   /// Largest gap that the model itself has at the border of the face (edge and vertex tolerances).
   double gap = 0.0;
   std::vector<FaceEdge> edges;
+  TrimGrid trim;  // empty if is_rectangle
   std::unique_ptr<ParametricSurface> surface;
   std::unique_ptr<SurfaceTree> tree;
 };

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <regex>
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -129,7 +130,18 @@ ShapeFile read_iges(const std::string& path) {
 }
 
 ShapeFile read_brep(const std::string& path) {
-  tail_of(path, 1);
+  // Checked here, as the kernel's reader prints on what it cannot read.
+  const std::string tail = tail_of(path, 256);
+  std::ifstream file(path, std::ios::binary);
+  std::string head(1024, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head.find("CASCADE Topology V") == std::string::npos)
+    throw FileError("the file does not start as an OpenCASCADE BREP (text) file", path,
+                    k_export_again);
+  // The last record names the whole shape: sign, number, location.
+  static const std::regex k_whole_shape("[\r\n][+-][0-9]+ [0-9]+[ \t]*[\r\n]");
+  if (!std::regex_search(tail + "\n", k_whole_shape))
+    throw FileError("the BREP file does not end with its shape: truncated", path, k_export_again);
   ShapeFile result;
   BRep_Builder builder;
   if (!BRepTools::Read(result.shape, path.c_str(), builder))

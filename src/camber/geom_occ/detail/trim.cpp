@@ -16,6 +16,8 @@ bool Trim::contains(const Vec2& uv) {
         p[k] > face_.limits.upper[k] + k_on_loop * range[k])
       return false;
   if (face_.is_rectangle) return true;
+  if (const TrimGrid::State state = face_.trim.at(p); state != TrimGrid::State::unknown)
+    return state == TrimGrid::State::inside;
   if (!classifier_)
     classifier_ =
         std::make_unique<BRepTopAdaptor_FClass2d>(face_.face, k_on_loop * range.minCoeff());

@@ -22,8 +22,10 @@ void Cursor::skip_blanks() {
   while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
 }
 
-std::size_t Cursor::next() {
-  if (!binary_) skip_blanks();
+std::size_t Cursor::next() { return binary_ ? at_ : next_word(); }
+
+std::size_t Cursor::next_word() {
+  skip_blanks();
   return at_;
 }
 

@@ -45,6 +45,8 @@ class Cursor {
 
   // Always text.
 
+  /// Place of the next word or number.
+  [[nodiscard]] std::size_t next_word();
   [[nodiscard]] std::int64_t text_integer(const char* expected);
   [[nodiscard]] double text_real(const char* expected);
   [[nodiscard]] std::string_view word(const char* expected);

@@ -1,5 +1,5 @@
-#include <camber/basis/lattice.hpp>
 #include <camber/basis/node_order.hpp>
+#include <camber/io/detail/mesh_check.hpp>
 #include <camber/io/gmsh/element_types.hpp>
 
 #include <algorithm>
@@ -99,10 +99,6 @@ int gmsh_number(Shape shape, int order) {
   const int number = known ? row.of_order[static_cast<std::size_t>(order - 1)] : 0;
   if (number == 0) throw std::invalid_argument("no Gmsh element of this shape and order");
   return number;
-}
-
-int nodes_per_element(Shape shape, int order) {
-  return shape == Shape::point ? 1 : node_count(shape, order);
 }
 
 std::span<const int> gmsh_to_canonical(Shape shape, int order) {

@@ -28,9 +28,6 @@ struct Refusal {
 /// Gmsh number of the full Lagrange element, order 1 to 4. @throws std::invalid_argument otherwise.
 [[nodiscard]] int gmsh_number(Shape shape, int order);
 
-/// Nodes of one element; a point has one.
-[[nodiscard]] int nodes_per_element(Shape shape, int order);
-
 /// file2canonical of node_order.hpp for Gmsh; the identity for a point.
 [[nodiscard]] std::span<const int> gmsh_to_canonical(Shape shape, int order);
 

@@ -21,8 +21,7 @@ constexpr double k_version_slack = 1e-6;  // versions are decimal fractions
 
 /// Behind $MeshFormat: version, text or binary, size of a number, byte order. @return 2 or 4
 int read_format(Cursor& in) {
-  static_cast<void>(in.at_end());
-  const std::size_t version_place = in.offset();
+  const std::size_t version_place = in.next_word();
   const double version = in.text_real("a version (4.1 or 2.2)");
   const bool is_v4 = std::abs(version - k_v4) < k_version_slack;
   const bool is_v2 =
@@ -31,10 +30,10 @@ int read_format(Cursor& in) {
     throw FileError(fmt::format("found version {}, expected version 4.1 or 2.2", version),
                     in.where(version_place), k_convert);
   }
-  const std::size_t flag_place = in.offset();
+  const std::size_t flag_place = in.next_word();
   const std::int64_t flag = in.text_integer("0 (text) or 1 (binary)");
   if (flag != 0 && flag != 1) in.fail(flag_place, std::to_string(flag), "0 (text) or 1 (binary)");
-  const std::size_t size_place = in.offset();
+  const std::size_t size_place = in.next_word();
   const std::int64_t size = in.text_integer("a data size of 8");
   if (size != 8) {
     throw FileError(fmt::format("found a data size of {}, expected 8", size), in.where(size_place),
@@ -58,17 +57,17 @@ int read_format(Cursor& in) {
 /// Behind $PhysicalNames, always text.
 void read_physical_names(ReaderState& state) {
   Cursor& in = state.in;
-  const std::size_t place = in.offset();
+  const std::size_t place = in.next_word();
   const std::int64_t stated = in.text_integer("the number of physical names");
   // At least: dimension, tag, two quotes.
   const std::size_t count = in.checked_count(stated, place, 6, 6, "the number of physical names");
   for (std::size_t i = 0; i < count; ++i) {
     PhysicalName entry;
-    const std::size_t dim_place = in.offset();
+    const std::size_t dim_place = in.next_word();
     const std::int64_t dim = in.text_integer("the dimension of a physical group");
     if (dim < 0 || dim > 3) in.fail(dim_place, std::to_string(dim), "a dimension from 0 to 3");
     entry.dim = static_cast<int>(dim);
-    const std::size_t tag_place = in.offset();
+    const std::size_t tag_place = in.next_word();
     const std::int64_t tag = in.text_integer("the tag of a physical group");
     if (tag < -std::numeric_limits<int>::max() || tag > std::numeric_limits<int>::max()) {
       in.fail(tag_place, std::to_string(tag), "the tag of a physical group of at most 32 bits");
@@ -156,8 +155,7 @@ class SectionReader {
     } else {
       read_content(kind, section, start);
     }
-    static_cast<void>(in_.at_end());
-    const std::size_t end = in_.offset();
+    const std::size_t end = in_.next_word();
     if (in_.word(("$End" + section).c_str()) != "$End" + section) {
       in_.fail(end, in_.found(end), "$End" + section);
     }

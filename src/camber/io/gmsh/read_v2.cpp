@@ -21,8 +21,7 @@ constexpr std::size_t k_number_text = 2, k_number_binary = 4;
 
 /// Count line that precedes the data; its line feed ends where binary data starts.
 std::int64_t read_count_line(Cursor& in, const char* expected, std::size_t& place) {
-  static_cast<void>(in.at_end());  // moves to the number
-  place = in.offset();
+  place = in.next_word();
   const std::int64_t count = in.text_integer(expected);
   in.end_line("the end of the line");
   return count;

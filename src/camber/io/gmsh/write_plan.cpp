@@ -1,6 +1,6 @@
 #include <camber/base/error.hpp>
+#include <camber/io/detail/mesh_check.hpp>
 #include <camber/io/gmsh/classification.hpp>
-#include <camber/io/gmsh/element_types.hpp>
 #include <camber/io/gmsh/node_numbers.hpp>
 #include <camber/io/gmsh/write_plan.hpp>
 
@@ -13,32 +13,6 @@
 
 namespace camber::io::gmsh {
 namespace {
-
-void require(bool condition, const char* what) {
-  if (!condition) throw std::invalid_argument(what);
-}
-
-void check(const MeshData& mesh, const std::string& display) {
-  const std::size_t n = mesh.points.size();
-  require(mesh.point_tags.empty() || mesh.point_tags.size() == n, "one tag per point expected");
-  require(mesh.point_entity.empty() || mesh.point_entity.size() == n,
-          "one entity per point expected");
-  require(mesh.point_parameters.empty() || mesh.point_parameters.size() == n,
-          "one parameter pair per point expected");
-  for (const ElementBlock& b : mesh.blocks) {
-    const auto per = static_cast<std::size_t>(nodes_per_element(b.shape, b.order));
-    require(b.nodes.size() % per == 0, "whole elements expected");
-    require(b.tags.empty() || b.tags.size() == b.size(), "one tag per element expected");
-    for (const Index i : b.nodes) require(i >= 0 && at(i) < n, "element with a node out of range");
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (mesh.points[i].allFinite()) continue;
-    throw FileError(
-        fmt::format("node {} has a coordinate that is not finite",
-                    mesh.point_tags.empty() ? static_cast<GlobalId>(i) + 1 : mesh.point_tags[i]),
-        display, "");
-  }
-}
 
 /// Classification of every node: as given, else the lowest entity of its elements, else the first
 /// entity of the highest dimension.
@@ -118,8 +92,9 @@ void number(const MeshData& mesh, const std::string& display, WritePlan& plan) {
     plan.point_tags.resize(mesh.points.size());
     std::iota(plan.point_tags.begin(), plan.point_tags.end(), GlobalId{1});
   }
-  for (const GlobalId tag : plan.point_tags)
-    require(tag >= 1, "node numbers of 1 or more expected");
+  for (const GlobalId tag : plan.point_tags) {
+    if (tag < 1) throw std::invalid_argument("node numbers of 1 or more expected");
+  }
   if (const auto twin = NodeNumbers(plan.point_tags).duplicate()) {
     throw FileError(fmt::format("node number {} occurs twice", plan.point_tags[at(*twin)]), display,
                     "");
@@ -138,7 +113,7 @@ void number(const MeshData& mesh, const std::string& display, WritePlan& plan) {
 }  // namespace
 
 WritePlan plan_write(const MeshData& mesh, const std::string& display) {
-  check(mesh, display);
+  check_mesh(mesh, display);
   WritePlan plan;
   const std::vector<EntityKey> of_point = classify(mesh);
   plan.entities = list_entities(mesh, of_point);

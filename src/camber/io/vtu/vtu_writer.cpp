@@ -1,6 +1,7 @@
 #include <camber/base/error.hpp>
 #include <camber/io/detail/hash.hpp>
 #include <camber/io/detail/input_file.hpp>
+#include <camber/io/detail/mesh_check.hpp>
 #include <camber/io/detail/output_file.hpp>
 #include <camber/io/vtu/vtu_cells.hpp>
 #include <camber/io/vtu/vtu_writer.hpp>
@@ -177,6 +178,7 @@ std::span<const double> flat(const Points& points) {
 
 VtuSummary write_vtu(const MeshData& mesh, const std::string& path, const VtuWriteOptions& options,
                      const std::string& display) {
+  check_mesh(mesh, display);
   const vtu::Cells cells = vtu::make_cells(mesh);
   const vtu::CellData data = vtu::make_cell_data(mesh, cells);
   OutputFile out(path, display);

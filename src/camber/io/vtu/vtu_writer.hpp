@@ -23,7 +23,9 @@ struct VtuSummary {
 /// A pyramid of order 3 or 4 becomes several cells that repeat its data. File version 2.2: older
 /// versions have another node order in hexahedra.
 /// @param display  name used in errors (the user's file, when `path` is a temporary)
-/// @throws FileError if the disk refuses
+/// @throws FileError if the disk refuses or a coordinate is not finite; std::invalid_argument if
+/// the
+///         arrays of `mesh` contradict each other
 [[nodiscard]] VtuSummary write_vtu(const MeshData& mesh, const std::string& path,
                                    const VtuWriteOptions& options, const std::string& display);
 

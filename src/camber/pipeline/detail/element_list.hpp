@@ -7,8 +7,8 @@
 
 namespace camber {
 
-/// Elements of dimension `dim`, block after block in the order of the file. Keeps a reference to the
-/// mesh. Any thread may read.
+/// Elements of dimension `dim`, block after block in the order of the file. Keeps a reference to
+/// the mesh. Any thread may read.
 class ElementList {
  public:
   ElementList(const MeshData& data, int dim);

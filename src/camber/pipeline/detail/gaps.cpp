@@ -82,8 +82,8 @@ class FaceMatcher {
       }
       ++findings_.inner_faces;
       if (face.cells > 2 && findings_.crowded++ == 0) findings_.crowded_at = centre(face);
-      findings_.max_order_jump = std::max(findings_.max_order_jump,
-                                          std::abs(order(face.first) - order(face.second)));
+      findings_.max_order_jump =
+          std::max(findings_.max_order_jump, std::abs(order(face.first) - order(face.second)));
     }
   }
 
@@ -159,7 +159,8 @@ class FaceMatcher {
 
   [[nodiscard]] CornerKey key(const View& view) const {
     const std::array<Index, 4> v = corner_nodes(view);
-    return corner_key(std::span(v.data(), v[3] == k_none ? 3 : 4));
+    if (v[3] != k_none) return corner_key(v);
+    return corner_key(std::array<Index, 3>{v[0], v[1], v[2]});
   }
 
   [[nodiscard]] Vec3 centre(const MatchedFace& face) const {
@@ -174,8 +175,8 @@ class FaceMatcher {
     return sum / n;
   }
 
-  /// Largest distance between what `a` and `b` make of the face; empty if b walks its corners in an order
-  /// that no rotation or reflection of a's gives.
+  /// Largest distance between what `a` and `b` make of the face; empty if b walks its corners in an
+  /// order that no rotation or reflection of a's gives.
   [[nodiscard]] std::optional<double> distance_between(Shape shape, const View& a,
                                                        const View& b) const {
     const std::array<Index, 4> corners_a = corner_nodes(a), corners_b = corner_nodes(b);

@@ -27,9 +27,7 @@ std::vector<std::vector<MultiIndex>> factor_tables(const CoefficientSpace& space
 
 }  // namespace
 
-int Factor::size() const {
-  return static_cast<int>(binomial(degree + dim, dim) + 0.5);
-}
+int Factor::size() const { return static_cast<int>(binomial(degree + dim, dim) + 0.5); }
 
 int CoefficientSpace::size() const {
   int n = 1;

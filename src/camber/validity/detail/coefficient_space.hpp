@@ -1,12 +1,12 @@
 #pragma once
-// Spaces of polynomials in Bernstein form on a product of simplices: one tetrahedron, triangle x line,
-// line x line x line. Every determinant of the certificate lives in one of these.
+// Spaces of polynomials in Bernstein form on a product of simplices: one tetrahedron, triangle x
+// line, line x line x line. Every determinant of the certificate lives in one of these.
+#include <camber/base/vec.hpp>
+#include <camber/validity/detail/kernel_plan.hpp>
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <camber/base/vec.hpp>
-#include <camber/validity/detail/kernel_plan.hpp>
 
 namespace camber::detail {
 
@@ -38,15 +38,15 @@ struct CoefficientSpace {
 /// degree! / (i0! i1! ..).
 [[nodiscard]] double multinomial(const Factor& factor, const MultiIndex& index);
 
-/// Product of the factors' multinomials for every coefficient: coefficient * multinomial is the "scaled"
-/// form, in which a product of polynomials is a plain convolution.
+/// Product of the factors' multinomials for every coefficient: coefficient * multinomial is the
+/// "scaled" form, in which a product of polynomials is a plain convolution.
 [[nodiscard]] std::vector<double> multinomials(const CoefficientSpace& space);
 
 /// The space that holds products of polynomials of a and b (degrees add).
 [[nodiscard]] CoefficientSpace product_space(const CoefficientSpace& a, const CoefficientSpace& b);
 
-/// E (size of `to` x size of `from`): the same polynomial of one factor in a higher degree. All entries
-/// are >= 0 and every row sums to 1.
+/// E (size of `to` x size of `from`): the same polynomial of one factor in a higher degree. All
+/// entries are >= 0 and every row sums to 1.
 [[nodiscard]] MatX factor_elevation(const Factor& from, const Factor& to);
 
 /// A coefficient that is the value of the polynomial at a corner: vertex[f] of each factor.
@@ -60,7 +60,8 @@ struct CornerCoefficient {
 /// The runs of coefficients along i1 of factor 0.
 [[nodiscard]] std::vector<CoefficientRow> coefficient_rows(const CoefficientSpace& space);
 
-/// out[i * rows(b) + j]: first coefficient of the product's row that row i of a times row j of b adds to.
+/// out[i * rows(b) + j]: first coefficient of the product's row that row i of a times row j of b
+/// adds to.
 [[nodiscard]] std::vector<std::int32_t> product_rows(const CoefficientSpace& a,
                                                      const CoefficientSpace& b);
 

@@ -1,3 +1,4 @@
+#include <camber/basis/lattice.hpp>
 #include <camber/validity/detail/determinant_plan.hpp>
 
 #include <algorithm>
@@ -7,8 +8,6 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
-
-#include <camber/basis/lattice.hpp>
 
 namespace camber::detail {
 
@@ -86,8 +85,8 @@ ColumnView DeterminantPlan::pack(const ColumnTable& table) {
   }
   view.rounding = amplified * roundings;
 
-  // The scaling of factor f goes into the pass that makes factor f: passes and factors correspond, or
-  // there is one pass for everything.
+  // The scaling of factor f goes into the pass that makes factor f: passes and factors correspond,
+  // or there is one pass for everything.
   std::vector<FactorPass> scaled = table.passes;
   const std::vector<double> all = multinomials(table.space);
   if (scaled.size() == 1) {
@@ -137,7 +136,8 @@ DeterminantPlan::DeterminantPlan(Shape shape, int p) {
   kernel_.corners = static_cast<int>(corner.size());
   kernel_.corner = keep(std::move(corner));
 
-  // Longest sums: every coefficient collects at most min(sizes) products; 64 as a floor for comfort.
+  // Longest sums: every coefficient collects at most min(sizes) products; 64 as a floor for
+  // comfort.
   const int first = std::min(columns[0].space.size(), columns[1].space.size());
   const int second = std::min(area.size(), last.size());
   kernel_.rounding = std::max(64.0, 2.0 * first + 3.0 * second + 16.0);

@@ -1,13 +1,14 @@
 #pragma once
-// The tables behind the certificate of one (shape, order): how node differences become Bernstein nets of
-// the columns of dx/dxi, how these multiply, and how the straight copy is raised to the same degree.
-#include <deque>
-#include <vector>
-
+// The tables behind the certificate of one (shape, order): how node differences become Bernstein
+// nets of the columns of dx/dxi, how these multiply, and how the straight copy is raised to the
+// same degree.
 #include <camber/basis/shape.hpp>
 #include <camber/validity/detail/coefficient_space.hpp>
 #include <camber/validity/detail/kernel_plan.hpp>
 #include <camber/validity/detail/subdivision.hpp>
+
+#include <deque>
+#include <vector>
 
 namespace camber::detail {
 
@@ -45,8 +46,8 @@ class DeterminantPlan {
   /// Doubles of scratch a lane, for any call of a kernel.
   [[nodiscard]] int work() const { return work_; }
 
-  /// The plan of (shape, p); built once, any thread. Throws std::invalid_argument for a shape without
-  /// determinant (point, line) and for p outside 1..k_max_certified_order.
+  /// The plan of (shape, p); built once, any thread. Throws std::invalid_argument for a shape
+  /// without determinant (point, line) and for p outside 1..k_max_certified_order.
   [[nodiscard]] static const DeterminantPlan& of(Shape shape, int p);
 
  private:

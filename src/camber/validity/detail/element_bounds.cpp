@@ -32,11 +32,10 @@ Verdict verdict_of(double lower, double upper) {
 
 // Where the lowest corner value lies.
 Vec3 lowest_corner(const SubdivisionTable& table, const double* c) {
-  const auto lowest = std::min_element(
-      table.corners().begin(), table.corners().end(),
-      [&](const CornerCoefficient& a, const CornerCoefficient& b) {
-        return c[a.coefficient] < c[b.coefficient];
-      });
+  const auto lowest = std::min_element(table.corners().begin(), table.corners().end(),
+                                       [&](const CornerCoefficient& a, const CornerCoefficient& b) {
+                                         return c[a.coefficient] < c[b.coefficient];
+                                       });
   return table.place(table.whole(), *lowest);
 }
 
@@ -51,8 +50,8 @@ MinimumBounds volume_minimum(const KernelRun& run, int lane, const CertifyOption
     bounds.at = lowest_corner(plan.subdivision(), c);
     return bounds;
   }
-  return refine_minimum(plan.subdivision(), {c, nullptr, margin, 0.0},
-                        goal_of(plan, options, true), work.refine);
+  return refine_minimum(plan.subdivision(), {c, nullptr, margin, 0.0}, goal_of(plan, options, true),
+                        work.refine);
 }
 
 // Bounds of the maximum, as those of the minimum of the opposite.
@@ -94,8 +93,8 @@ double volume_ratio(const KernelRun& run, int lane, const JacobianBounds& bounds
   if (!is_sharp(low, run.ratio_corner(lane), options.sharpness)) {
     const Ratio ratio{run.curved(lane, work), straight, run.margin(lane),
                       run.straight_margin(lane)};
-    low = refine_minimum(run.plan().subdivision(), ratio,
-                         goal_of(run.plan(), options, false), work.refine)
+    low = refine_minimum(run.plan().subdivision(), ratio, goal_of(run.plan(), options, false),
+                         work.refine)
               .lower;
   }
   if (std::isinf(low)) return std::min(0.0, bounds.scaled_jacobian);

@@ -1,11 +1,11 @@
 #pragma once
 // From what a kernel found for one element to its JacobianBounds.
-#include <span>
-#include <vector>
-
 #include <camber/validity/detail/determinant_plan.hpp>
 #include <camber/validity/detail/refine.hpp>
 #include <camber/validity/element_validity.hpp>
+
+#include <span>
+#include <vector>
 
 namespace camber::detail {
 

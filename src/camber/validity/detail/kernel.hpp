@@ -1,6 +1,6 @@
-// The determinant kernel, written once for any number of lanes. Included by the kernel_*.cpp files only,
-// each compiled for one instruction set: everything here has internal linkage on purpose, and no library
-// header may be used.
+// The determinant kernel, written once for any number of lanes. Included by the kernel_*.cpp files
+// only, each compiled for one instruction set: everything here has internal linkage on purpose, and
+// no library header may be used.
 #pragma once
 #include <camber/validity/detail/kernel_plan.hpp>
 
@@ -33,21 +33,37 @@ inline Pack<W> broadcast(double s) {
   return p;
 }
 template <int W>
-inline Pack<W> operator+(const Pack<W>& a, const Pack<W>& b) { return {a.v + b.v}; }
+inline Pack<W> operator+(const Pack<W>& a, const Pack<W>& b) {
+  return {a.v + b.v};
+}
 template <int W>
-inline Pack<W> operator-(const Pack<W>& a, const Pack<W>& b) { return {a.v - b.v}; }
+inline Pack<W> operator-(const Pack<W>& a, const Pack<W>& b) {
+  return {a.v - b.v};
+}
 template <int W>
-inline Pack<W> operator*(const Pack<W>& a, const Pack<W>& b) { return {a.v * b.v}; }
+inline Pack<W> operator*(const Pack<W>& a, const Pack<W>& b) {
+  return {a.v * b.v};
+}
 template <int W>
-inline Pack<W> operator/(const Pack<W>& a, const Pack<W>& b) { return {a.v / b.v}; }
+inline Pack<W> operator/(const Pack<W>& a, const Pack<W>& b) {
+  return {a.v / b.v};
+}
 template <int W>
-inline Pack<W> operator*(double s, const Pack<W>& a) { return {s * a.v}; }
+inline Pack<W> operator*(double s, const Pack<W>& a) {
+  return {s * a.v};
+}
 template <int W>
-inline Pack<W> lower(const Pack<W>& a, const Pack<W>& b) { return {a.v < b.v ? a.v : b.v}; }
+inline Pack<W> lower(const Pack<W>& a, const Pack<W>& b) {
+  return {a.v < b.v ? a.v : b.v};
+}
 template <int W>
-inline Pack<W> higher(const Pack<W>& a, const Pack<W>& b) { return {a.v > b.v ? a.v : b.v}; }
+inline Pack<W> higher(const Pack<W>& a, const Pack<W>& b) {
+  return {a.v > b.v ? a.v : b.v};
+}
 template <int W>
-inline Pack<W> magnitude(const Pack<W>& a) { return {a.v < 0.0 ? -a.v : a.v}; }
+inline Pack<W> magnitude(const Pack<W>& a) {
+  return {a.v < 0.0 ? -a.v : a.v};
+}
 /// a where test >= 0, b elsewhere.
 template <int W>
 inline Pack<W> where_not_negative(const Pack<W>& test, const Pack<W>& a, const Pack<W>& b) {
@@ -95,9 +111,9 @@ Pack<W>* apply_all(const PassView* passes, int count, Pack<W>* values, Pack<W>* 
 
 template <int W>
 struct Column {
-  Pack<W>* net[3];    // scaled coefficients of each component
-  Pack<W> peak[3];    // largest plain coefficient, by magnitude
-  Pack<W> error[3];   // bound of a plain coefficient's error, in units of u
+  Pack<W>* net[3];   // scaled coefficients of each component
+  Pack<W> peak[3];   // largest plain coefficient, by magnitude
+  Pack<W> error[3];  // bound of a plain coefficient's error, in units of u
 };
 
 template <int W>
@@ -194,7 +210,8 @@ struct Determinant {
   Pack<W> margin;
 };
 
-/// Plain coefficients of (a x b) . c and their round-off bound. `area` is a x b, with its columns' peaks.
+/// Plain coefficients of (a x b) . c and their round-off bound. `area` is a x b, with its columns'
+/// peaks.
 template <int W>
 Determinant<W> finish(const KernelPlan& plan, Pack<W>* const* area, const Column<W>* column,
                       Scratch<W>& scratch) {
@@ -207,10 +224,9 @@ Determinant<W> finish(const KernelPlan& plan, Pack<W>* const* area, const Column
   const Column<W>&a = column[0], &b = column[1], &c = column[2];
   const Pack<W> products = permanent(a.peak, b.peak, c.peak);
   const Pack<W> inherited = permanent(a.error, b.peak, c.peak) +
-                            permanent(a.peak, b.error, c.peak) +
-                            permanent(a.peak, b.peak, c.error);
-  result.margin = k_unit_roundoff * (plan.rounding * products + 2.0 * inherited) +
-                  broadcast<W>(k_underflow);
+                            permanent(a.peak, b.error, c.peak) + permanent(a.peak, b.peak, c.error);
+  result.margin =
+      k_unit_roundoff * (plan.rounding * products + 2.0 * inherited) + broadcast<W>(k_underflow);
   return result;
 }
 
@@ -341,7 +357,8 @@ void kernel(const KernelPlan& plan, const StraightView* straight_view, const dou
     for (int n = 0; n < straight_plan.size; ++n) first[n] = straight.coefficients[n];
     straight.coefficients =
         apply_all(straight_view->passes, straight_view->pass_count, first, second);
-    straight.margin = 2.0 * straight.margin;  // the elevation rounds, by less than the margin itself
+    straight.margin =
+        2.0 * straight.margin;  // the elevation rounds, by less than the margin itself
   }
   summarise(plan, curved, out);
   Pack<W>* coefficients = reinterpret_cast<Pack<W>*>(out.coefficients);

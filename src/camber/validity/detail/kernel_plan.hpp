@@ -1,6 +1,7 @@
 #pragma once
-// What a determinant kernel reads and writes: plain pointers into tables that a DeterminantPlan owns. The
-// kernels are compiled once per instruction set, so no inline library code may be instantiated there.
+// What a determinant kernel reads and writes: plain pointers into tables that a DeterminantPlan
+// owns. The kernels are compiled once per instruction set, so no inline library code may be
+// instantiated there.
 #include <cstdint>
 
 namespace camber::detail {
@@ -40,8 +41,8 @@ struct ColumnView {
 struct KernelPlan {
   int nodes = 0, columns = 3;
   ColumnView column[3];
-  ProductView cross;  // column 0 x column 1
-  ProductView dot;    // (column 0 x column 1) . column 2
+  ProductView cross;                            // column 0 x column 1
+  ProductView dot;                              // (column 0 x column 1) . column 2
   const double* inverse_multinomial = nullptr;  // of the determinant
   const std::int32_t* corner = nullptr;         // coefficients that are values at corners
   int corners = 0, size = 0;
@@ -65,18 +66,18 @@ struct KernelOutput {
   double* straight_coefficients = nullptr;  // [size][lane] those of the straight copy
   double* margin = nullptr;                 // round-off bound of every coefficient
   double* straight_margin = nullptr;
-  double* lowest = nullptr;         // of the coefficients
+  double* lowest = nullptr;  // of the coefficients
   double* highest = nullptr;
   double* corner_lowest = nullptr;  // of those that are values at corners
   double* corner_highest = nullptr;
-  double* ratio_lowest = nullptr;   // certified lower bound of curved / straight; -inf if none
-  double* ratio_corner = nullptr;   // certified upper bound of the ratio's minimum
-  double* finite = nullptr;         // 0 if all went well, NaN otherwise
+  double* ratio_lowest = nullptr;  // certified lower bound of curved / straight; -inf if none
+  double* ratio_corner = nullptr;  // certified upper bound of the ratio's minimum
+  double* finite = nullptr;        // 0 if all went well, NaN otherwise
 };
 
-/// Determinant of `lanes` elements at once. `nodes` is [component][node][lane]; with `straight` also the
-/// straight copy and the ratios. A plan with two columns is a face and needs `straight`: its
-/// determinant is n . N, that of the straight copy |N|^2.
+/// Determinant of `lanes` elements at once. `nodes` is [component][node][lane]; with `straight`
+/// also the straight copy and the ratios. A plan with two columns is a face and needs `straight`:
+/// its determinant is n . N, that of the straight copy |N|^2.
 using Kernel = void (*)(const KernelPlan& plan, const StraightView* straight, const double* nodes,
                         double* work, const KernelOutput& out);
 

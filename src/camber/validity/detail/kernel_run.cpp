@@ -1,6 +1,6 @@
-#include <cstdint>
-
 #include <camber/validity/detail/element_bounds.hpp>
+
+#include <cstdint>
 
 namespace camber::detail {
 
@@ -46,9 +46,9 @@ KernelRun::KernelRun(const DeterminantPlan& plan, KernelChoice kernel, bool with
     *place = next;
     next += size;
   }
-  for (double** place : {&out_.margin, &out_.straight_margin, &out_.lowest, &out_.highest,
-                         &out_.corner_lowest, &out_.corner_highest, &out_.ratio_lowest,
-                         &out_.ratio_corner, &out_.finite}) {
+  for (double** place :
+       {&out_.margin, &out_.straight_margin, &out_.lowest, &out_.highest, &out_.corner_lowest,
+        &out_.corner_highest, &out_.ratio_lowest, &out_.ratio_corner, &out_.finite}) {
     *place = next;
     next += lanes;
   }

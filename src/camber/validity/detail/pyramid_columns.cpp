@@ -3,15 +3,15 @@
 //   dx/dx_ref                =  i a^(i-1) b^j (1-c)^(m-1) c^k                       =: A
 //   dx/dy_ref                =  j a^i b^(j-1) (1-c)^(m-1) c^k                       =: B
 //   dx/dz_ref - b dx/dy_ref  =  (i-m) a^i b^j (1-c)^(m-1) c^k + k a^i b^j (1-c)^m c^(k-1) =: C
-// are polynomials up to the apex: m = 0 forces i = j = 0 and the first three terms vanish. Adding -b B to
-// the third column does not change the determinant and lowers its degree in a, so
+// are polynomials up to the apex: m = 0 forces i = j = 0 and the first three terms vanish. Adding
+// -b B to the third column does not change the determinant and lowers its degree in a, so
 //   det = A x B . C   has degree (3p-2, 3p-1, 3p-3) in (a, b, c).
+#include <camber/basis/lattice.hpp>
+#include <camber/validity/detail/determinant_plan.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include <camber/basis/lattice.hpp>
-#include <camber/validity/detail/determinant_plan.hpp>
 
 namespace camber::detail {
 
@@ -40,7 +40,8 @@ long double power(long double x, int n) {
   return r;
 }
 
-// inverse(V), V(node, monomial): column n holds the monomial coefficients of the basis function of node n.
+// inverse(V), V(node, monomial): column n holds the monomial coefficients of the basis function of
+// node n.
 LongMatrix basis_coefficients(int p) {
   const std::vector<Monomial> terms = monomials(p);
   const std::span<const LatticePoint> nodes = lattice(Shape::pyramid, p);
@@ -99,8 +100,8 @@ LongMatrix column_of_monomials(const CoefficientSpace& space, int d, int p) {
   return all;
 }
 
-// Matrix on the differences along reference direction d (0 or 1): nodes of a row share (j, k), and both
-// the rows' differences and the derivative vanish for the functions of (y, z) alone.
+// Matrix on the differences along reference direction d (0 or 1): nodes of a row share (j, k), and
+// both the rows' differences and the derivative vanish for the functions of (y, z) alone.
 FactorPass pass_on_differences(const LongMatrix& on_nodes, int d, int p, ColumnTable& column) {
   const std::span<const LatticePoint> nodes = lattice(Shape::pyramid, p);
   const auto along = static_cast<std::size_t>(d);

@@ -11,15 +11,18 @@ namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_unit_roundoff = 0x1p-53;
-// Halvings spent on finding a negative value once a value of zero (to round-off) is known: the sign can
-// no longer become positive, only the kind of failure is open.
+// Halvings spent on finding a negative value once a value of zero (to round-off) is known: the sign
+// can no longer become positive, only the kind of failure is open.
 constexpr int k_splits_after_zero = 64;
 
 class Search {
  public:
   Search(const SubdivisionTable& table, const Ratio& ratio, const RefineGoal& goal,
          RefineWork& work)
-      : table_(table), ratio_(ratio), goal_(goal), work_(work),
+      : table_(table),
+        ratio_(ratio),
+        goal_(goal),
+        work_(work),
         size_(static_cast<std::size_t>(table.size())) {
     work_.parts.clear();
     work_.queue.clear();

@@ -1,8 +1,8 @@
 #pragma once
 // Branch and bound for the minimum of a polynomial, or of a ratio of two, in Bernstein form.
-#include <vector>
-
 #include <camber/validity/detail/subdivision.hpp>
+
+#include <vector>
 
 namespace camber::detail {
 
@@ -21,8 +21,8 @@ struct RefineGoal {
   int max_splits = 768;    // halvings in all
 };
 
-/// lower <= minimum <= upper, round-off included; `at` is a corner of a part where the value is at most
-/// upper. lower is -infinity if the denominator could not be shown positive.
+/// lower <= minimum <= upper, round-off included; `at` is a corner of a part where the value is at
+/// most upper. lower is -infinity if the denominator could not be shown positive.
 struct MinimumBounds {
   double lower = 0.0, upper = 0.0;
   Vec3 at = Vec3::Zero();
@@ -36,14 +36,14 @@ class RefineWork {
     int number, depth, slot, parent, direction;
     bool keeps_first;
   };
-  std::vector<Part> parts;             // all parts ever made
+  std::vector<Part> parts;                    // all parts ever made
   std::vector<std::pair<double, int>> queue;  // heap of (lower, part number), lowest first
   std::vector<std::vector<double>> slots;     // coefficients of the parts in the queue
   std::vector<int> free_slots;
 };
 
-/// Best-first subdivision: the part with the lowest bound is halved in the direction in which it bends
-/// most. Deterministic; no allocation once the work arrays have grown.
+/// Best-first subdivision: the part with the lowest bound is halved in the direction in which it
+/// bends most. Deterministic; no allocation once the work arrays have grown.
 [[nodiscard]] MinimumBounds refine_minimum(const SubdivisionTable& table, const Ratio& ratio,
                                            const RefineGoal& goal, RefineWork& work);
 

@@ -36,7 +36,9 @@ SplitDirection rows_along_edge(const CoefficientSpace& space, int f, int first, 
 }  // namespace
 
 SubdivisionTable::SubdivisionTable(Shape shape, const CoefficientSpace& space)
-    : shape_(shape), size_(space.size()), factors_(space.factors),
+    : shape_(shape),
+      size_(space.size()),
+      factors_(space.factors),
       corners_(corner_coefficients(space)) {
   for (std::size_t f = 0; f < factors_.size(); ++f) {
     if (factors_[f].degree < 2) continue;  // linear along this factor: nothing to gain

@@ -1,16 +1,16 @@
 #pragma once
 // Halving the domain of a polynomial in Bernstein form: along an edge of one factor of the product.
+#include <camber/basis/shape.hpp>
+#include <camber/validity/detail/coefficient_space.hpp>
+
 #include <array>
 #include <span>
 #include <vector>
 
-#include <camber/basis/shape.hpp>
-#include <camber/validity/detail/coefficient_space.hpp>
-
 namespace camber::detail {
 
-/// A part of the reference domain: the corners of its factors, as places that add up. A point is the sum
-/// over the factors of a convex combination of that factor's corners.
+/// A part of the reference domain: the corners of its factors, as places that add up. A point is
+/// the sum over the factors of a convex combination of that factor's corners.
 struct Region {
   std::array<std::array<Vec3, 4>, 3> vertex;
 };
@@ -33,17 +33,19 @@ class SubdivisionTable {
   /// Longest chain of halvings that one split puts a coefficient through.
   [[nodiscard]] int degree() const { return degree_; }
 
-  /// Direction in which the control net bends most (largest second difference along its rows); the first
-  /// of equals; -1 if it bends nowhere: then the corners are the extreme values already.
+  /// Direction in which the control net bends most (largest second difference along its rows); the
+  /// first of equals; -1 if it bends nowhere: then the corners are the extreme values already.
   [[nodiscard]] int most_bent(const double* coefficients) const;
-  /// De Casteljau at one half: `coefficients` becomes the half with `first` replaced by the midpoint,
-  /// `other` the half that keeps `first`.
+  /// De Casteljau at one half: `coefficients` becomes the half with `first` replaced by the
+  /// midpoint, `other` the half that keeps `first`.
   void split(int direction, double* coefficients, double* other) const;
 
-  /// The whole reference domain, and a half of a region (`keeps_first`: `second` moves to the midpoint).
+  /// The whole reference domain, and a half of a region (`keeps_first`: `second` moves to the
+  /// midpoint).
   [[nodiscard]] Region whole() const;
   void halve(Region& region, int direction, bool keeps_first) const;
-  /// Reference coordinates of a corner of a region (for a pyramid these are of the pyramid, not the cube).
+  /// Reference coordinates of a corner of a region (for a pyramid these are of the pyramid, not the
+  /// cube).
   [[nodiscard]] Vec3 place(const Region& region, const CornerCoefficient& corner) const;
 
  private:

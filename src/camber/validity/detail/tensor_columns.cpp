@@ -16,10 +16,10 @@ MatX conversion(const Factor& factor) {
                             : bernstein_from_lattice(simplex(factor.dim), factor.degree);
 }
 
-// K such that K * (differences v[m + e_d] - v[m], m over the lattice of degree n - 1) are the Bernstein
-// coefficients of the derivative along e_d. The differences decide the derivative, because both vanish
-// for exactly the polynomials that do not depend on xi_d; so a cell that is thin along xi_d loses no
-// digits to its width.
+// K such that K * (differences v[m + e_d] - v[m], m over the lattice of degree n - 1) are the
+// Bernstein coefficients of the derivative along e_d. The differences decide the derivative,
+// because both vanish for exactly the polynomials that do not depend on xi_d; so a cell that is
+// thin along xi_d loses no digits to its width.
 MatX derivative(const Factor& factor, int d) {
   const Factor lower{factor.dim, factor.degree - 1};
   const MatX M = conversion(factor);
@@ -51,11 +51,16 @@ MatX derivative(const Factor& factor, int d) {
 // The shape as a product: dimensions of its factors.
 std::vector<int> factor_dims(Shape shape) {
   switch (shape) {
-    case Shape::triangle: return {2};
-    case Shape::quadrilateral: return {1, 1};
-    case Shape::tetrahedron: return {3};
-    case Shape::prism: return {2, 1};
-    default: return {1, 1, 1};
+    case Shape::triangle:
+      return {2};
+    case Shape::quadrilateral:
+      return {1, 1};
+    case Shape::tetrahedron:
+      return {3};
+    case Shape::prism:
+      return {2, 1};
+    default:
+      return {1, 1, 1};
   }
 }
 
@@ -82,7 +87,8 @@ std::vector<ColumnTable> tensor_columns(Shape shape, int p) {
           const MultiIndex& index = tables[g][static_cast<std::size_t>(rest % size)];
           rest /= size;
           for (int i = 0; i < dims[g]; ++i) {
-            point[static_cast<std::size_t>(first_axis + i)] = index[static_cast<std::size_t>(i + 1)];
+            point[static_cast<std::size_t>(first_axis + i)] =
+                index[static_cast<std::size_t>(i + 1)];
           }
           first_axis += dims[g];
         }

@@ -1,0 +1,74 @@
+#include "console.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+namespace camber::app {
+namespace {
+
+volatile std::sig_atomic_t signal_received = 0;
+
+void remember(int signal) { signal_received = signal; }
+
+}  // namespace
+
+void print(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
+}
+
+void print_error(std::string_view message) {
+  std::string line(message);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  fmt::print(stderr, "camber: error: {}\n", line);
+}
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = remember;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+}
+
+int interrupted() { return signal_received; }
+
+void stop_if_interrupted() {
+  if (interrupted() != 0) throw Cancelled{};
+}
+
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::show(std::string_view stage, double fraction) {
+  if (!is_shown_) return;
+  fmt::print(stderr, "\r[{:3.0f} %] {:<20}", 100.0 * fraction, stage);
+  std::fflush(stderr);
+  is_dirty_ = true;
+}
+
+void ProgressLine::clear() {
+  if (!is_dirty_) return;
+  fmt::print(stderr, "\r{:28}\r", "");
+  std::fflush(stderr);
+  is_dirty_ = false;
+}
+
+Progress ProgressLine::progress() {
+  return {[this](std::string_view stage, double fraction) { show(stage, fraction); },
+          [] { return interrupted() != 0; }};
+}
+
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace camber::app

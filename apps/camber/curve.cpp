@@ -1,0 +1,216 @@
+// camber curve: the main job, from a linear mesh and its CAD to a certified curved mesh in a file.
+#include <camber/base/error.hpp>
+#include <camber/geom_occ/cad_file.hpp>
+#include <camber/pipeline/check.hpp>
+#include <camber/pipeline/curve.hpp>
+
+#include <charconv>
+#include <chrono>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "console.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace camber::app {
+namespace {
+
+struct CurveFlags {
+  CommonFlags common;
+  FormatFlags format;
+  CurveOptions options;
+  std::string mesh, unit = "auto", deviation_length = "face";
+  std::vector<std::string> geometry, outputs, patches;
+};
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void set_deviation_length(const std::string& text, OrderOptions& orders) {
+  if (text == "face" || text == "cell") {
+    orders.deviation_length = text == "face" ? DeviationLength::face : DeviationLength::cell;
+    return;
+  }
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), orders.length);
+  if (error != std::errc{} || end != text.data() + text.size() || !(orders.length > 0.0)) {
+    throw OptionError("'" + text + "' is no length", "--deviation-length",
+                      "give face, cell or a positive length in mesh units");
+  }
+  orders.deviation_length = DeviationLength::given;
+}
+
+void set_patches(const std::vector<std::string>& texts, TagOptions& association) {
+  static const std::map<std::string, PatchRule> rules{{"free", PatchRule::free},
+                                                      {"fixed", PatchRule::fixed},
+                                                      {"plane", PatchRule::plane},
+                                                      {"wall", PatchRule::wall}};
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.rfind('=');
+    const auto rule =
+        equals == std::string::npos ? rules.end() : rules.find(text.substr(equals + 1));
+    if (rule == rules.end() || equals == 0) {
+      throw OptionError("'" + text + "' is no rule for a patch", "--patch",
+                        "give NAME=free, NAME=fixed, NAME=plane or NAME=wall");
+    }
+    association.patches[text.substr(0, equals)] = rule->second;
+  }
+}
+
+CurveOptions options_of(const CurveFlags& flags) {
+  CurveOptions options = flags.options;
+  options.threads = flags.common.threads;
+  options.association.scale = scale_of_unit(flags.unit);
+  set_deviation_length(flags.deviation_length, options.orders);
+  set_patches(flags.patches, options.association);
+  if (options.orders.min_order > options.orders.max_order) {
+    throw OptionError(fmt::format("the lowest order {} is above the highest, {}",
+                                  options.orders.min_order, options.orders.max_order),
+                      "--min-order", "lower it or raise --order");
+  }
+  return options;
+}
+
+std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
+                                                       const CurveOptions& options) {
+  const auto yes_no = [](bool value) { return std::string(value ? "yes" : "no"); };
+  std::vector<std::pair<std::string, std::string>> list{
+      {"order", std::to_string(options.orders.max_order)},
+      {"min-order", std::to_string(options.orders.min_order)},
+      {"uniform", yes_no(options.uniform)},
+      {"deviation", fmt::format("{:g}", options.orders.deviation)},
+      {"deviation-length", flags.deviation_length},
+      {"unit", flags.unit},
+      {"allow-invalid", yes_no(options.allow_invalid)},
+      {"strict", yes_no(options.strict)}};
+  if (!flags.patches.empty()) {
+    list.emplace_back("patch", fmt::format("{}", fmt::join(flags.patches, " ")));
+  }
+  return list;
+}
+
+/// Writes all outputs, each verified before it replaces anything. @return seconds spent verifying
+double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certified) {
+  double verifying = 0.0;
+  for (const std::string& path : flags.outputs) {
+    io::write_mesh(mesh, path, flags.format.writing(), [&](const MeshData& read_back) {
+      const Clock::time_point start = Clock::now();
+      stop_if_interrupted();
+      verify_written(mesh, read_back, is_certified);
+      stop_if_interrupted();
+      verifying += seconds_since(start);
+    });
+    stop_if_interrupted();
+  }
+  return verifying;
+}
+
+int run(const CurveFlags& flags) {
+  const Clock::time_point begin = Clock::now();
+  const CurveOptions options = options_of(flags);
+  const std::string& cad = only_geometry(flags.geometry);
+  refuse_overwriting({flags.mesh, cad}, flags.outputs);
+  for (const std::string& path : flags.outputs) io::check_writable(path, flags.format.writing());
+
+  ProgressLine line(flags.common.shows_progress());
+  line.show("read", 0.0);
+  const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
+  stop_if_interrupted();
+  const std::unique_ptr<GeometryModel> geometry = read_cad(cad);
+  stop_if_interrupted();
+  const double reading = seconds_since(begin);
+
+  CurveResult result = curve(mesh, *geometry, options, line.progress());
+  Report& report = result.report;
+  report.input.mesh = flags.mesh;
+  report.input.geometry = flags.geometry;
+  report.options = shown(flags, options);
+  report.stages_s.insert(report.stages_s.begin(), {"read", reading});
+
+  const bool is_certified = report.validity.invalid + report.validity.undecided == 0;
+  if (is_certified || options.allow_invalid) {
+    line.show("write", 1.0);
+    const Clock::time_point start = Clock::now();
+    const MeshData curved = exported(result, options);
+    const double verifying = write_all(curved, flags, is_certified);
+    report.output.path = fmt::format("{}", fmt::join(flags.outputs, ", "));
+    report.output.nodes = curved.points.size();
+    report.stages_s.emplace_back("write", seconds_since(start) - verifying);
+    report.stages_s.emplace_back("verify", verifying);
+  } else {
+    report.warnings.emplace_back(
+        "nothing was written: not every element is certified (--allow-invalid writes all the "
+        "same)");
+  }
+  report.total_s = seconds_since(begin);
+  report.peak_bytes = peak_memory();
+  line.clear();
+  return deliver(report, flags.common);
+}
+
+void add_order_flags(CLI::App& verb, CurveFlags& flags) {
+  OrderOptions& orders = flags.options.orders;
+  verb.add_option("--order", orders.max_order, "highest order (degree) of an element [-]")
+      ->check(CLI::Range(1, k_max_order))
+      ->type_name("1..4")
+      ->capture_default_str();
+  verb.add_option("--min-order", orders.min_order, "lowest order of an element [-]")
+      ->check(CLI::Range(1, k_max_order))
+      ->type_name("1..4")
+      ->capture_default_str();
+  verb.add_flag("--uniform", flags.options.uniform,
+                "write every element at the highest order (same shapes); default: mixed orders");
+  verb.add_option("--deviation", orders.deviation,
+                  "a face asks for more order while it is farther from the CAD than this share of "
+                  "the deviation length [-]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SHARE")
+      ->capture_default_str();
+  verb.add_option("--deviation-length", flags.deviation_length,
+                  "face: shortest edge of the wall face; cell: of the cell on it, as in the paper; "
+                  "or a length [mesh units]")
+      ->type_name("face|cell|LENGTH")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+Verb add_curve(CLI::App& app) {
+  const auto flags = std::make_shared<CurveFlags>();
+  CLI::App* verb =
+      app.add_subcommand("curve", "curve a linear mesh onto the CAD that its tags refer to");
+  verb->add_option("mesh", flags->mesh, "linear mesh (.msh)")->required()->type_name("MESH");
+  verb->add_option("-g,--geometry", flags->geometry, "CAD file (.step .stp .iges .igs .brep)")
+      ->required()
+      ->type_name("CAD")
+      ->expected(1)
+      ->take_all();
+  verb->add_option("-o,--output", flags->outputs,
+                   "curved mesh to write (.msh or .vtu); may be given several times")
+      ->required()
+      ->type_name("OUT")
+      ->expected(1)
+      ->take_all();
+  add_order_flags(*verb, *flags);
+  add_unit_flag(*verb, flags->unit);
+  verb->add_option("--patch", flags->patches,
+                   "how a patch behaves, by name or surface number: free, fixed, plane or wall; "
+                   "may be given several times; default: by its tag and shape")
+      ->type_name("NAME=RULE")
+      ->expected(1)
+      ->take_all();
+  verb->add_flag("--allow-invalid", flags->options.allow_invalid,
+                 "write even if an element is not certified; default: write nothing, exit code 3");
+  verb->add_flag("--strict", flags->options.strict, "faces over the deviation give exit code 3");
+  add_from_flag(*verb, flags->format);
+  add_to_flags(*verb, flags->format);
+  add_common_flags(*verb, flags->common);
+  return {verb, &flags->common, [flags] { return run(*flags); }};
+}
+
+}  // namespace camber::app

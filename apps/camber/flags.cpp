@@ -1,0 +1,103 @@
+#include "flags.hpp"
+
+#include <camber/base/error.hpp>
+
+#include <filesystem>
+#include <map>
+
+#include "console.hpp"
+
+namespace camber::app {
+
+bool CommonFlags::shows_progress() const {
+  return !is_quiet && !no_progress && stderr_is_terminal();
+}
+
+void add_common_flags(CLI::App& verb, CommonFlags& flags) {
+  verb.add_option("--json", flags.json, "also write the report to this file, as JSON")
+      ->type_name("FILE");
+  verb.add_option("--threads", flags.threads, "threads to work with; 0: all of the machine")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N")
+      ->capture_default_str();
+  verb.add_flag("-q,--quiet", flags.is_quiet, "no report on the terminal");
+  verb.add_flag("-v,--verbose", flags.is_verbose, "log what is done to stderr");
+  verb.add_flag("--no-progress", flags.no_progress,
+                "no progress line (it is only shown on a terminal)");
+}
+
+io::ReadOptions FormatFlags::reading() const {
+  return {.format = from.empty() ? io::Format::automatic : io::Format::gmsh};
+}
+
+io::WriteOptions FormatFlags::writing() const {
+  io::WriteOptions options;
+  if (to == "msh") options.format = io::Format::gmsh;
+  if (to == "vtu") options.format = io::Format::vtu;
+  options.binary = !is_ascii;
+  options.gmsh_version = msh_version == "2.2" ? 2.2 : 4.1;
+  return options;
+}
+
+void add_from_flag(CLI::App& verb, FormatFlags& flags) {
+  verb.add_option("--from", flags.from, "format of the mesh read; default: by its extension")
+      ->check(CLI::IsMember({"msh"}))
+      ->type_name("FORMAT");
+}
+
+void add_to_flags(CLI::App& verb, FormatFlags& flags) {
+  verb.add_option("--to", flags.to, "format of the mesh written; default: by its extension")
+      ->check(CLI::IsMember({"msh", "vtu"}))
+      ->type_name("FORMAT");
+  verb.add_flag("--ascii", flags.is_ascii, "write text; default: binary");
+  verb.add_option("--msh-version", flags.msh_version, "version of the Gmsh format written")
+      ->check(CLI::IsMember({"4.1", "2.2"}))
+      ->type_name("VERSION")
+      ->capture_default_str();
+}
+
+double scale_of_unit(const std::string& unit) {
+  static const std::map<std::string, double> scales{
+      {"auto", 0.0}, {"mm", 1.0}, {"m", 1e-3}, {"in", 1.0 / 25.4}};
+  return scales.at(unit);
+}
+
+void add_unit_flag(CLI::App& verb, std::string& unit) {
+  verb.add_option("--unit", unit,
+                  "unit of the mesh's lengths; auto: the one in which mesh and CAD fit")
+      ->check(CLI::IsMember({"auto", "m", "mm", "in"}))
+      ->type_name("UNIT")
+      ->capture_default_str();
+}
+
+const std::string& only_geometry(const std::vector<std::string>& files) {
+  if (files.size() != 1) {
+    throw OptionError("one CAD file is taken for now, " + std::to_string(files.size()) + " given",
+                      "--geometry", "join them in one STEP file");
+  }
+  return files.front();
+}
+
+void refuse_overwriting(const std::vector<std::string>& inputs,
+                        const std::vector<std::string>& outputs) {
+  namespace fs = std::filesystem;
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code failed;
+    return fs::weakly_canonical(a, failed) == fs::weakly_canonical(b, failed) ||
+           fs::equivalent(a, b, failed);
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const std::string& input : inputs) {
+      if (same(outputs[i], input)) {
+        throw OptionError("the output would replace an input", outputs[i], "give another name");
+      }
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (same(outputs[i], outputs[k])) {
+        throw OptionError("two outputs have the same name", outputs[i], "give another name");
+      }
+    }
+  }
+}
+
+}  // namespace camber::app
