@@ -115,6 +115,8 @@ def actor_of(data, colour_by_order):
         mapper.SetScalarModeToUseCellFieldData()
         mapper.SelectColorArray("drawn order")
         mapper.SetScalarRange(0.5, 4.5)
+        actor.GetProperty().SetAmbient(0.45)
+        actor.GetProperty().SetDiffuse(0.6)
     else:
         mapper.ScalarVisibilityOff()
         actor.GetProperty().SetColor(0.12, 0.14, 0.18)
@@ -144,28 +146,28 @@ def scene(path, box, title):
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(actor_of(normals.GetOutput(), True))
     renderer.AddActor(actor_of(edge_lines(part), False))
-    renderer.AddActor2D(label(title, 0.5, 0.93, 26, True))
+    renderer.AddActor2D(label(f"  {title}  ", 0.5, 0.92, 26))
     return renderer, sorted(set(orders))
 
 
-def label(text, x, y, size, centred=False, colour=(0.1, 0.1, 0.12)):
+def label(text, x, y, size, background=(1, 1, 1)):
     actor = vtk.vtkTextActor()
     actor.SetInput(text)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     actor.SetPosition(x, y)
     style = actor.GetTextProperty()
     style.SetFontSize(size)
-    style.SetColor(*colour)
-    if centred:
-        style.SetJustificationToCentered()
+    style.SetColor(0.1, 0.1, 0.12)
+    style.SetBackgroundColor(*background)
+    style.SetBackgroundOpacity(1.0)
+    style.SetJustificationToCentered()
     return actor
 
 
 def add_legend(renderer, orders):
     for k, order in enumerate(orders):
-        x = 0.5 + 0.11 * (k - len(orders) / 2)
-        renderer.AddActor2D(label("\u25a0", x, 0.03, 30, colour=COLOURS[order - 1]))
-        renderer.AddActor2D(label(f"Q{order}", x + 0.035, 0.035, 22))
+        x = 0.5 + 0.1 * (k - (len(orders) - 1) / 2)
+        renderer.AddActor2D(label(f"  Q{order}  ", x, 0.03, 24, COLOURS[order - 1]))
 
 
 def main():
@@ -173,10 +175,10 @@ def main():
     parser.add_argument("linear")
     parser.add_argument("curved")
     parser.add_argument("out")
-    parser.add_argument("--keep", type=float, nargs=6, default=[-0.3, 0.6, 0.6, 1.9, -0.3, 0.4])
-    parser.add_argument("--from", dest="eye", type=float, nargs=3, default=[-1.2, -0.6, 0.9])
-    parser.add_argument("--to", dest="focus", type=float, nargs=3, default=[0.5, 0.9, 0.0])
-    parser.add_argument("--height", type=float, default=0.5)
+    parser.add_argument("--keep", type=float, nargs=6, default=[-9, 9, 0.62, 9, -9, 9])
+    parser.add_argument("--from", dest="eye", type=float, nargs=3, default=[-0.9, -1.6, 0.7])
+    parser.add_argument("--to", dest="focus", type=float, nargs=3, default=[0.48, 0.65, 0.0])
+    parser.add_argument("--height", type=float, default=0.3)
     a = parser.parse_args()
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)

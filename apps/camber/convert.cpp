@@ -98,7 +98,7 @@ Verb add_convert(CLI::App& app) {
                        "every element at this order: the same shape where it is lower now; 1 takes "
                        "the corners only; default: as --keep [-]")
           ->check(CLI::Range(1, k_max_order))
-          ->type_name("1..4");
+          ->type_name("ORDER");
   verb->add_flag("--keep", flags->keep, "every element keeps its order (default)")->excludes(order);
   add_from_flag(*verb, flags->format);
   add_to_flags(*verb, flags->format);

@@ -157,11 +157,11 @@ void add_order_flags(CLI::App& verb, CurveFlags& flags) {
   OrderOptions& orders = flags.options.orders;
   verb.add_option("--order", orders.max_order, "highest order (degree) of an element [-]")
       ->check(CLI::Range(1, k_max_order))
-      ->type_name("1..4")
+      ->type_name("ORDER")
       ->capture_default_str();
   verb.add_option("--min-order", orders.min_order, "lowest order of an element [-]")
       ->check(CLI::Range(1, k_max_order))
-      ->type_name("1..4")
+      ->type_name("ORDER")
       ->capture_default_str();
   verb.add_flag("--uniform", flags.options.uniform,
                 "write every element at the highest order (same shapes); default: mixed orders");

@@ -69,19 +69,19 @@ TEST_P(AnalyticModelOf, AnyKindIsNowhereNearerThanItsClosestPoint) {
   // A dense sample of the surface is the naive reference.
   const Projection corner = projector->closest(k_face, model->box().centre());
   ASSERT_NE(corner.status, ProjectionStatus::failed);
-  const auto sphere_like = model->periods(1);
-  for (const Vec3& x : points(60)) {
+  const auto periods = model->periods(1);
+  for (const Vec3& x : points(20)) {
     const Projection p = projector->closest(k_face, x);
     EXPECT_NEAR((x - p.point).norm(), p.distance, 1e-12);
     EXPECT_LT((projector->evaluate_face(1, p.uv).point - p.point).norm(), 1e-7);
-    for (int i = 0; i <= 40; ++i) {
-      for (int j = 0; j <= 40; ++j) {
-        const double u = sphere_like[0] > 0 ? sphere_like[0] * i / 40.0 : i / 40.0;
-        const double v = sphere_like[1] > 0 ? sphere_like[1] * j / 40.0
+    for (int i = 0; i <= 25; ++i) {
+      for (int j = 0; j <= 25; ++j) {
+        const double u = periods[0] > 0 ? periods[0] * i / 25.0 : i / 25.0;
+        const double v = periods[1] > 0 ? periods[1] * j / 25.0
                          : GetParam().name == std::string("sphere") ||
                                  GetParam().name == std::string("ellipsoid")
-                             ? std::numbers::pi * (j / 40.0 - 0.5)
-                             : j / 40.0;
+                             ? std::numbers::pi * (j / 25.0 - 0.5)
+                             : j / 25.0;
         EXPECT_GE((projector->evaluate_face(1, {u, v}).point - x).norm(), p.distance - 1e-12);
       }
     }

@@ -176,5 +176,12 @@ TEST(OccModel, RefusesEntitiesThatDoNotExist) {
   EXPECT_THROW(static_cast<void>(model->name({0, 9})), GeometryError);
 }
 
+TEST(OccModel, NamesAFaceThatHasNoBorderAtEveryQuestion) {
+  const auto model = test::round_trip(BRepBuilderAPI_MakeFace(gp_Pln()).Shape());
+  const auto projector = model->projector();
+  for (int i = 0; i < 2; ++i)
+    EXPECT_THROW(static_cast<void>(projector->closest({2, 1}, Vec3::Zero())), GeometryError);
+}
+
 }  // namespace
 }  // namespace camber

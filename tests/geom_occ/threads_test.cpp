@@ -16,7 +16,7 @@ std::vector<double> ask(const GeometryModel& model) {
     result.insert(result.end(), {p.point[0], p.point[1], p.point[2], p.uv[0], p.uv[1], p.distance});
   };
   for (int f = 1; f <= model.count(2); ++f) {
-    for (const Vec3& x : test::random_points(model.box({2, f}), 40)) {
+    for (const Vec3& x : test::random_points(model.box({2, f}), 12)) {
       const Projection p = projector->closest({2, f}, x);
       note(p);
       note(projector->closest({2, f}, x + Vec3::Constant(0.01), p.uv));
@@ -48,7 +48,7 @@ TEST(Projectors, InTwoThreadsGiveTheBitsOfOne) {
 
 TEST(Projectors, AnswerTheSameInAnyOrderOfQuestions) {
   const auto model = test::round_trip(test::wavy_face());
-  const std::vector<Vec3> points = test::random_points(model->box(), 100);
+  const std::vector<Vec3> points = test::random_points(model->box(), 40);
   const auto forwards = model->projector(), backwards = model->projector();
   std::vector<Projection> first, second(points.size());
   for (const Vec3& x : points) first.push_back(forwards->closest({2, 1}, x));

@@ -120,6 +120,23 @@ TEST(SeededProjection, FindsWhatTheGlobalOneFindsNearTheSurface) {
   }
 }
 
+TEST(SeededProjection, SurvivesSeedsThatAreNoUse) {
+  const auto model = round_trip(test::drilled_cylinder());
+  const auto projector = model->projector();
+  for (int f = 1; f <= model->count(2); ++f) {
+    for (const Vec3& x : random_points(model->box({2, f}), 20)) {
+      const Projection global = projector->closest({2, f}, x);
+      const Projection blind = projector->closest({2, f}, x, Vec2(NAN, 0.0));
+      EXPECT_EQ(blind.point, global.point);
+      const Projection far = projector->closest({2, f}, x, Vec2(50.0, -70.0));
+      EXPECT_TRUE(far.uv.allFinite());
+      EXPECT_LT((projector->evaluate_face(f, far.uv).point - far.point).norm(), 1e-6);
+      EXPECT_NEAR((x - far.point).norm(), far.distance, 1e-12);
+      EXPECT_GE(far.distance, global.distance - 1e-6);
+    }
+  }
+}
+
 TEST(WavyFace, BeyondItsCornerGivesItsNearestBorder) {
   const auto model = round_trip(test::wavy_face());
   const auto projector = model->projector();

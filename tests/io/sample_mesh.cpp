@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -144,21 +145,39 @@ std::vector<double> measures(const MeshData& mesh) {
   return result;
 }
 
+namespace {
+
+/// A folder of this process: several runs may go on at once.
+class ScratchFolder {
+ public:
+  ScratchFolder()
+      : path_(std::filesystem::path(testing::TempDir()) /
+              ("camber_io_test." + std::to_string(::getpid()))) {}
+  ~ScratchFolder() {
+    std::error_code ignored;  // nothing depends on it any more
+    std::filesystem::remove_all(path_, ignored);
+  }
+  /// The folder, emptied when a new test asks for the first time.
+  const std::filesystem::path& of(const std::string& test) {
+    if (test != test_) {
+      test_ = test;
+      std::filesystem::remove_all(path_);
+      std::filesystem::create_directories(path_);
+    }
+    return path_;
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::string test_;
+};
+
+}  // namespace
+
 std::string scratch(const std::string& name) {
+  static ScratchFolder folder;
   const testing::TestInfo* const test = testing::UnitTest::GetInstance()->current_test_info();
-  std::string folder = std::string(test->test_suite_name()) + "." + test->name();
-  for (char& c : folder) {
-    if (c == '/') c = '_';
-  }
-  const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / "camber_io" / folder;
-  static std::string current;
-  if (current != path.string()) {
-    current = path.string();
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
-  }
-  return (path / name).string();
+  return (folder.of(std::string(test->test_suite_name()) + "." + test->name()) / name).string();
 }
 
 std::string slurp(const std::string& path) {

@@ -15,8 +15,8 @@ import surface_mesh
 # Control points of the upper half section, chord 1; the first two lie on the vertical tangent.
 SECTION = np.array([(0, 0), (0, .020), (.045, .050), (.18, .072), (.42, .074), (.72, .040), (1, .006)])
 SPAN, SWEEP, TAPER = 1.8, 0.55, 0.55
-CHORD_EDGES, SPAN_EDGES = 13, 13
-CLUSTER = 0.12  # gmsh "Bump": edges shorten towards leading and trailing edge
+CHORD_EDGES, SPAN_EDGES = 10, 12
+GROWTH = 1.22  # of the chordwise edges from the leading edge on
 LAYERS, FIRST_OF_EDGE = 7, 4e-3
 
 
@@ -53,7 +53,10 @@ def set_mesh_sizes():
         if dy > SPAN / 2:
             set_curve(tag, SPAN_EDGES + 1)
         elif dx > dz:
-            set_curve(tag, CHORD_EDGES + 1, "Bump", CLUSTER)
+            ends = np.array(gmsh.model.getParametrizationBounds(1, tag)).ravel()
+            start, end = np.array(gmsh.model.getValue(1, tag, ends)).reshape(2, 3)
+            growth = GROWTH if start[0] < end[0] else 1 / GROWTH
+            set_curve(tag, CHORD_EDGES + 1, "Progression", growth)
         else:
             set_curve(tag, 2)
     for _, tag in gmsh.model.getEntities(2):

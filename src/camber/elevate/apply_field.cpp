@@ -1,51 +1,104 @@
 #include <camber/elevate/apply_field.hpp>
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 
 #include <camber/base/parallel.hpp>
+#include <camber/basis/lagrange.hpp>
 
 namespace camber {
 namespace {
-constexpr std::size_t k_grain = 1024;
+
+constexpr std::size_t k_grain = 512;
+
+void set_edge(const LayerField& field, CurvedMesh& curved, Index e) {
+  const std::span<Vec3> nodes = curved.edge_nodes(e);
+  if (nodes.empty()) return;
+  std::array<Vec3, 8> u;
+  const int q = curved.edge_order(e);
+  field.edge(e, q, std::span(u.data(), nodes.size()));
+  const std::array<Index, 2>& v = curved.topology().edge2vertex[at(e)];
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double s = static_cast<double>(k + 1) / q;
+    const Vec3 straight = (1.0 - s) * curved.vertex(v[0]) + s * curved.vertex(v[1]);
+    nodes[k] = field.constrained_edge_point(e, straight + u[k]);
+  }
 }
 
-void apply_field(const LayerField& field, CurvedMesh& curved) {
+void set_face(const LayerField& field, CurvedMesh& curved, Index f) {
+  const std::span<Vec3> nodes = curved.face_nodes(f);
+  if (nodes.empty()) return;
+  std::array<Vec3, 49> u;
+  const int q = curved.face_order(f);
+  field.face(f, q, std::span(u.data(), nodes.size()));
   const Topology& topology = curved.topology();
-  parallel_for(topology.edge_count(), k_grain, [&](std::size_t begin, std::size_t end) {
-    std::array<Vec3, 8> u;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index e = static_cast<Index>(i);
-      const std::span<Vec3> nodes = curved.edge_nodes(e);
-      if (nodes.empty()) continue;
-      field.edge(e, curved.edge_order(e), std::span(u.data(), nodes.size()));
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        nodes[k] = field.constrained_edge_point(e, nodes[k] + u[k]);
-      }
-    }
+  const Shape shape = topology.face_shape[at(f)];
+  std::array<Vec3, 4> corner;
+  const std::size_t n = static_cast<std::size_t>(topology.corners_of_face(f));
+  for (std::size_t i = 0; i < n; ++i) corner[i] = curved.vertex(topology.face2vertex[at(f)][i]);
+  const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
+  const std::span<const int> inner = interior_nodes(shape, q);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    nodes[k] = field.constrained_face_point(f, straight[static_cast<std::size_t>(inner[k])] + u[k]);
+  }
+}
+
+void set_cell(const LayerField& field, CurvedMesh& curved, Index c, Points& straight, Points& u) {
+  const std::span<Vec3> nodes = curved.cell_nodes(c);
+  if (nodes.empty()) return;
+  const int q = curved.cell_order(c);
+  u.resize(nodes.size());
+  field.cell(c, q, u);
+  curved.gather_straight(c, q, straight);
+  const std::vector<int>& inner = lattice_map(curved.linear().cell_shape[at(c)], q).interior;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    nodes[k] = straight[static_cast<std::size_t>(inner[k])] + u[k];
+  }
+}
+
+void set_all(const LayerField& field, CurvedMesh& curved, const std::vector<Index>& edges,
+             const std::vector<Index>& faces, const std::vector<Index>& cells) {
+  parallel_for(edges.size(), k_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) set_edge(field, curved, edges[i]);
   });
-  parallel_for(topology.face_count(), k_grain, [&](std::size_t begin, std::size_t end) {
-    std::array<Vec3, 49> u;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index f = static_cast<Index>(i);
-      const std::span<Vec3> nodes = curved.face_nodes(f);
-      if (nodes.empty()) continue;
-      field.face(f, curved.face_order(f), std::span(u.data(), nodes.size()));
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        nodes[k] = field.constrained_face_point(f, nodes[k] + u[k]);
-      }
-    }
+  parallel_for(faces.size(), k_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) set_face(field, curved, faces[i]);
   });
-  parallel_for(curved.linear().cell_count(), k_grain, [&](std::size_t begin, std::size_t end) {
-    Points u;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index c = static_cast<Index>(i);
-      const std::span<Vec3> nodes = curved.cell_nodes(c);
-      if (nodes.empty()) continue;
-      u.resize(nodes.size());
-      field.cell(c, curved.cell_order(c), u);
-      for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] += u[k];
-    }
+  parallel_for(cells.size(), k_grain, [&](std::size_t begin, std::size_t end) {
+    Points straight, u;
+    for (std::size_t i = begin; i < end; ++i) set_cell(field, curved, cells[i], straight, u);
   });
+}
+
+std::vector<Index> counted(std::size_t n) {
+  std::vector<Index> items(n);
+  std::iota(items.begin(), items.end(), 0);
+  return items;
+}
+
+void make_unique(std::vector<Index>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+}  // namespace
+
+void apply_field(const LayerField& field, CurvedMesh& curved) {
+  set_all(field, curved, counted(curved.topology().edge_count()), counted(curved.topology().face_count()),
+          counted(curved.linear().cell_count()));
+}
+
+void apply_field(const LayerField& field, CurvedMesh& curved, const std::vector<Index>& cells) {
+  std::vector<Index> edges, faces, inside = cells;
+  for (Index c : cells) {
+    for (Index e : curved.topology().edges_of_cell(c)) edges.push_back(e);
+    for (Index f : curved.topology().faces_of_cell(c)) faces.push_back(f);
+  }
+  make_unique(edges);
+  make_unique(faces);
+  make_unique(inside);
+  set_all(field, curved, edges, faces, inside);
 }
 
 }  // namespace camber

@@ -1,11 +1,16 @@
 #pragma once
+#include <vector>
+
 #include <camber/elevate/layer_field.hpp>
 #include <camber/mesh/curved_mesh.hpp>
 
 namespace camber {
 
-/// Moves every high-order node of the mesh (which must be straight) by the field: wall nodes to their
-/// placed positions, volume nodes by the carried displacement, nodes on planes exactly inside them.
+/// Sets every high-order node to its straight place moved by the field: wall nodes come to their placed
+/// positions, volume nodes are carried, nodes on planes stay exactly inside them.
 void apply_field(const LayerField& field, CurvedMesh& curved);
+
+/// The same for the edges, faces and insides of some cells only.
+void apply_field(const LayerField& field, CurvedMesh& curved, const std::vector<Index>& cells);
 
 }  // namespace camber

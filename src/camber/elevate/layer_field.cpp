@@ -126,8 +126,8 @@ void LayerField::build_trees() {
   }
   wall_tree_ = FaceTree(mesh_, topology_, wall_.faces, labels);
   for (Index f = 0; at(f) < topology_.face_count(); ++f) {
-    const Patch* patch = association_.patch_of(f);
-    if (patch && patch->kind != PatchKind::cad) still_faces_.push_back(f);
+    const Index patch = association_.face2patch[at(f)];
+    if (patch != k_none && !wall_.is_wall_patch[at(patch)]) still_faces_.push_back(f);
   }
   still_tree_ = FaceTree(mesh_, topology_, still_faces_, std::vector<int>(still_faces_.size(), 0));
   for (double l : length_) longest_ = std::max(longest_, l);

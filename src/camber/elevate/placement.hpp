@@ -2,6 +2,7 @@
 // High-order wall nodes on the CAD, for every order that may be asked, and how far each order misses.
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <camber/elevate/wall.hpp>
@@ -34,6 +35,14 @@ class Placement {
   [[nodiscard]] std::span<const Vec3> edge_displacement(Index slot, int q) const;
   [[nodiscard]] std::span<const Vec3> face_displacement(Index slot, int q) const;
 
+  /// Caps the order of shape of some faces (slots): above its cap a face's nodes are those of the cap's
+  /// polynomial, elevated. Caps only fall. Their edges inside a patch follow; edges on CAD curves only when the cap reaches 1
+  /// (straight). Faces that share a changed edge are placed again.
+  /// @return slots of all faces whose nodes changed, sorted
+  std::vector<Index> lower(const std::vector<std::pair<Index, int>>& caps);
+  /// Highest order of shape the face may have (max_order unless lowered).
+  [[nodiscard]] int face_cap(Index slot) const { return face_cap_[at(slot)]; }
+
   /// q = 1..max_order, every entity of the face at order q.
   [[nodiscard]] const Deviation& face_deviation(Index slot, int q) const {
     return face_deviation_[static_cast<std::size_t>(q)][at(slot)];
@@ -57,6 +66,9 @@ class Placement {
   void measure_slot(Projector& projector, Index slot);
   void measure_edge(Projector& projector, Index slot);
   void find_planes();
+  void copy_edges_to_face(Index slot, int q, std::span<Vec3> moved) const;
+  void cap_edge(Index slot);
+  void cap_face(Index slot);
   [[nodiscard]] Vec3 onto_patch(Projector& projector, Index patch, const Vec3& x, const Vec3& direction,
                                 double reach, const WallCorner* seed, bool& is_placed) const;
 
@@ -74,6 +86,7 @@ class Placement {
   std::array<std::vector<double>, k_orders> edge_deviation_;
   double largest_ = 0.0;
   std::vector<std::uint8_t> edge_unplaced_, face_unplaced_;
+  std::vector<std::uint8_t> edge_cap_, face_cap_;
   std::vector<Index> plane_of_edge_;  // edge slot -> patch of kind `plane` on its other side, or -1
 };
 

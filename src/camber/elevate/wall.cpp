@@ -11,6 +11,44 @@ namespace {
 /// lies on a fold, a pole or a wrong sheet.
 constexpr double k_least_agreement = 0.2;
 
+/// A plane is a wall if most cells on it are lower than this share of their face's shortest edge.
+constexpr double k_flat_cell = 0.5;
+
+/// Height of the face's first cell over the shortest edge of the face.
+double relative_height(const LinearMesh& mesh, const Topology& topology, Index f) {
+  const Vec3 normal = outward_normal(mesh, topology, f);
+  const std::array<Index, 4>& v = topology.face2vertex[at(f)];
+  const int n = topology.corners_of_face(f);
+  double shortest = 1e300, height = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const Vec3& a = mesh.vertices[at(v[static_cast<std::size_t>(i)])];
+    const Vec3& b = mesh.vertices[at(v[static_cast<std::size_t>((i + 1) % n)])];
+    shortest = std::min(shortest, (a - b).norm());
+  }
+  for (Index c : mesh.cell(topology.face2cell[at(f)][0])) {
+    height = std::max(height, (mesh.vertices[at(v[0])] - mesh.vertices[at(c)]).dot(normal));
+  }
+  return height / shortest;
+}
+
+std::vector<std::uint8_t> find_wall_patches(const LinearMesh& mesh, const Topology& topology,
+                                            const Association& association) {
+  std::vector<std::uint8_t> is_wall(association.patches.size(), 0);
+  std::vector<std::size_t> flat(association.patches.size(), 0), total(association.patches.size(), 0);
+  for (Index f = 0; at(f) < topology.face_count(); ++f) {
+    const Patch* patch = association.patch_of(f);
+    if (!patch || patch->kind != PatchKind::plane || patch->group.empty()) continue;
+    const std::size_t p = at(association.face2patch[at(f)]);
+    ++total[p];
+    flat[p] += relative_height(mesh, topology, f) < k_flat_cell;
+  }
+  for (std::size_t p = 0; p < is_wall.size(); ++p) {
+    const PatchKind kind = association.patches[p].kind;
+    is_wall[p] = kind == PatchKind::cad || (total[p] > 0 && 2 * flat[p] > total[p]);
+  }
+  return is_wall;
+}
+
 void collect_corners(const Topology& topology, const Association& association, Wall& wall) {
   std::vector<std::pair<Index, Index>> keys;  // (vertex, patch)
   for (Index f : wall.faces) {
@@ -65,11 +103,12 @@ Vec3 outward_normal(const LinearMesh& mesh, const Topology& topology, Index face
 Wall build_wall(const LinearMesh& mesh, const Topology& topology, const Association& association,
                 const GeometryModel& model) {
   Wall wall;
+  wall.is_wall_patch = find_wall_patches(mesh, topology, association);
   wall.face_slot.assign(topology.face_count(), k_none);
   wall.edge_slot.assign(topology.edge_count(), k_none);
   for (Index f = 0; at(f) < topology.face_count(); ++f) {
-    const Patch* patch = association.patch_of(f);
-    if (!patch || patch->kind != PatchKind::cad) continue;
+    const Index patch = association.face2patch[at(f)];
+    if (patch == k_none || !wall.is_wall_patch[at(patch)]) continue;
     wall.face_slot[at(f)] = static_cast<Index>(wall.faces.size());
     wall.faces.push_back(f);
     for (int i = 0; i < topology.corners_of_face(f); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 // The part of the boundary that lies on CAD, and how straight and curved wall relate.
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include <camber/associate/association.hpp>
@@ -17,8 +18,11 @@ struct WallCorner {
   Vec3 normal = Vec3::Zero();  // unit, out of the cells; averaged facets where the CAD has none (poles)
 };
 
-/// Faces on patches of kind `cad`, their edges and corners, numbered by slots of their own.
+/// Faces on CAD that the layers stand on, their edges and corners, numbered by slots of their own: all
+/// patches of kind `cad`, and the planes on CAD whose cells are flat on them (a blunt trailing edge, a flat
+/// body side; but not a symmetry plane that the layers end on).
 struct Wall {
+  std::vector<std::uint8_t> is_wall_patch;  // by patch
   std::vector<Index> faces;      // slot -> topology face
   std::vector<Index> face_slot;  // topology face -> slot or -1
   std::vector<Index> edges;      // slot -> topology edge

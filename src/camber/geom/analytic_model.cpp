@@ -22,6 +22,11 @@ void check_face(int tag) {
   if (tag != 1) no_such("face", tag);
 }
 
+/// A seed that is no number is none.
+std::optional<Vec2> finite(const std::optional<Vec2>& seed) {
+  return seed && seed->allFinite() ? seed : std::nullopt;
+}
+
 struct Shared {
   explicit Shared(std::unique_ptr<AnalyticSurface> s)
       : surface(std::move(s)), tree(*surface, surface->domain()) {}
@@ -34,7 +39,8 @@ class AnalyticProjector final : public Projector {
   AnalyticProjector(std::shared_ptr<const Shared> shared, double scale)
       : shared_(std::move(shared)), scale_(scale) {}
 
-  Projection closest(GeomEntity entity, const Vec3& x, const std::optional<Vec2>& seed) override {
+  Projection closest(GeomEntity entity, const Vec3& x,
+                     const std::optional<Vec2>& given_seed) override {
     if (entity != GeomEntity{2, 1}) no_such("entity", entity.tag);
     if (!x.allFinite()) {
       Projection failed;
@@ -43,6 +49,7 @@ class AnalyticProjector final : public Projector {
       failed.entity = entity;
       return failed;
     }
+    const std::optional<Vec2> seed = finite(given_seed);
     const SurfaceFoot foot = shared_->surface->closest(x / scale_, seed);
     const bool is_inside = foot.tangential <= k_orthogonal * shared_->tree.size();
     return finished(foot, std::sqrt(foot.distance_squared),
@@ -51,11 +58,12 @@ class AnalyticProjector final : public Projector {
 
   std::optional<Projection> along_line(int face, const Vec3& x, const Vec3& direction,
                                        double max_distance,
-                                       const std::optional<Vec2>& seed) override {
+                                       const std::optional<Vec2>& given_seed) override {
     check_face(face);
     const double length = direction.norm();
     if (!x.allFinite() || !(length > 0.0) || !std::isfinite(length) || !(max_distance >= 0.0))
       return {};
+    const std::optional<Vec2> seed = finite(given_seed);
     const Vec3 inner = x / scale_, d = direction / length;
     const double close = k_crossing * shared_->tree.size();
     double bound = max_distance / scale_;

@@ -28,11 +28,16 @@ void check_writable(const std::string& path, const WriteOptions& options = {});
 
 /// Writes to a temporary file beside `path`, flushes it to disk, reads it back where a reader
 /// exists, calls verify(what was read), then renames. On any failure the temporary is removed, the
-/// old file is untouched and a FileError is thrown.
+/// old file is untouched and a FileError is thrown; what verify throws passes through. A kill may
+/// leave the temporary ".NAME.XXXXXX.tmp" behind, never a damaged `path`.
+/// Points may come back sorted by entity; elements keep their order (see gmsh_writer.hpp). A .vtu
+/// file is compared byte by byte with what was meant, and verify is not called.
 void write_mesh(const MeshData& mesh, const std::string& path, const WriteOptions& options = {},
                 const std::function<void(const MeshData&)>& verify = {});
 
-/// The same safety for any writer: produce(temporary path) must create the file.
+/// The same safety for any writer: produce(temporary path) must fill the file, which exists and is
+/// empty; verify(temporary path) may look at the result. What they throw passes through.
+/// @throws FileError
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string&)>& produce,
                       const std::function<void(const std::string&)>& verify = {});

@@ -10,6 +10,7 @@
 #include <camber/base/parallel.hpp>
 #include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/rescue.hpp>
+#include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/summary.hpp>
 
 namespace camber {
@@ -65,7 +66,7 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   watch.next("place");
   progress("place", 0.2);
   const Wall wall = build_wall(mesh, topology, result.association, geometry);
-  const Placement placement(mesh, topology, result.association, geometry, wall, options.orders.max_order);
+  Placement placement(mesh, topology, result.association, geometry, wall, options.orders.max_order);
 
   watch.next("elevate");
   progress("elevate", 0.4);
@@ -89,11 +90,11 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("rescue");
   progress("rescue", 0.8);
-  const RescueResult rescue = scale_back(*result.curved, uncertified);
+  const LadderResult ladder = climb(*result.curved, placement, field, wall, columns, uncertified);
 
   watch.next("measure");
   progress("measure", 0.9);
-  summarise(result, geometry, wall, placement, columns, rescue, options);
+  summarise(result, geometry, wall, placement, columns, ladder, options);
   watch.stop();
   result.report.stages_s = watch.stages();
   for (const auto& [name, seconds] : watch.stages()) result.report.total_s += seconds;

@@ -266,50 +266,46 @@ void measure_wall_spacing(const CurveResult& result, const Wall& wall, const Col
   }
 }
 
-/// Largest distance between where the wall nodes of a cell are and where they were to be.
-double distance_missed(const CurveResult& result, const Wall& wall, const Placement& placement, Index c) {
-  const CurvedMesh& curved = *result.curved;
-  const Topology& topology = *result.topology;
-  double largest = 0.0;
-  for (Index e : topology.edges_of_cell(c)) {
-    const Index slot = wall.edge_slot[at(e)];
-    if (slot == k_none || curved.edge_order(e) < 2) continue;
-    const std::span<const Vec3> x = curved.edge_nodes(e), wanted = placement.edge_nodes(slot, curved.edge_order(e));
-    for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, (x[i] - wanted[i]).norm());
-  }
-  for (Index f : topology.faces_of_cell(c)) {
-    const Index slot = wall.face_slot[at(f)];
-    if (slot == k_none || curved.face_order(f) < 2) continue;
-    const std::span<const Vec3> x = curved.face_nodes(f), wanted = placement.face_nodes(slot, curved.face_order(f));
-    for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, (x[i] - wanted[i]).norm());
-  }
-  return largest;
+/// Share of the displacement a cell kept, 1 if it was not scaled back.
+double share_kept(const RescueResult& scaled, Index c) {
+  const auto place = std::lower_bound(scaled.scaled_back.begin(), scaled.scaled_back.end(), c);
+  if (place == scaled.scaled_back.end() || *place != c) return 1.0;
+  return scaled.kept[static_cast<std::size_t>(place - scaled.scaled_back.begin())];
 }
 
 void list_rescue(const CurveResult& result, const Wall& wall, const Placement& placement,
-                 const RescueResult& rescue, Report& report) {
+                 const LadderResult& ladder, Report& report) {
   const LinearMesh& mesh = *result.linear;
-  const std::vector<Index> pinched = find_pinched_cells(mesh, *result.topology, result.association, wall);
+  const Topology& topology = *result.topology;
+  const std::vector<Index> pinched = find_pinched_cells(mesh, topology, result.association, wall);
   report.rescue.pinched = pinched.size();
-  report.rescue.scaled_back = rescue.scaled_back.size();
-  std::vector<Index> listed = rescue.scaled_back;
+  report.rescue.patches = ladder.patches_repaired;
+  report.rescue.orders_lowered = ladder.lowered_faces.size();
+  report.rescue.scaled_back = ladder.scaled.scaled_back.size();
+  std::map<Index, std::string> reasons;  // by cell
+  const auto add = [&](Index c, const std::string& reason) {
+    std::string& all = reasons[c];
+    all += (all.empty() ? "" : "; ") + reason;
+  };
   for (Index c : pinched) {
-    if (result.curved->cell_order(c) > 1) listed.push_back(c);
+    if (result.curved->cell_order(c) > 1) add(c, "three edges of a corner lie on one smooth CAD face");
   }
-  std::sort(listed.begin(), listed.end());
-  listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
-  for (Index c : listed) {
-    const auto place = std::lower_bound(rescue.scaled_back.begin(), rescue.scaled_back.end(), c);
-    const bool is_scaled = place != rescue.scaled_back.end() && *place == c;
-    const bool is_pinched = std::binary_search(pinched.begin(), pinched.end(), c);
-    std::string reason;
-    if (is_pinched) reason = "three edges of a corner lie on one smooth CAD face";
-    if (is_scaled) {
-      const double kept = rescue.kept[static_cast<std::size_t>(place - rescue.scaled_back.begin())];
-      reason += fmt::format("{}scaled back to {:.3g} of its displacement", reason.empty() ? "" : "; ", kept);
+  for (Index slot : ladder.lowered_faces) {
+    const Index f = wall.faces[at(slot)];
+    add(topology.face2cell[at(f)][0], fmt::format("wall face lowered from order {} to the shape of order {}",
+                                                  result.curved->face_order(f), placement.face_cap(slot)));
+  }
+  for (Index c : ladder.scaled.scaled_back) {
+    add(c, fmt::format("scaled back to {:.3g} of its displacement", share_kept(ladder.scaled, c)));
+  }
+  for (const auto& [c, reason] : reasons) {
+    double distance = 0.0;
+    for (Index f : topology.faces_of_cell(c)) {
+      const double d = result.face_deviation[at(f)];
+      if (d > distance) distance = d;
     }
-    report.rescue.places.push_back({mesh.cell_tags[at(c)], mesh.cell_shape[at(c)], centre_of(mesh, c),
-                                    distance_missed(result, wall, placement, c), std::move(reason)});
+    report.rescue.places.push_back(
+        {mesh.cell_tags[at(c)], mesh.cell_shape[at(c)], centre_of(mesh, c), distance, reason});
   }
 }
 
@@ -328,8 +324,22 @@ void warn(const CurveResult& result, Report& report) {
   }
 }
 
-void decide(const Association& association, const Placement& placement, const Wall& wall, const CurveOptions& options,
-            Report& report) {
+/// Lowered wall faces that are over the deviation.
+std::size_t missed_by_lowering(const CurveResult& result, const Wall& wall, const LadderResult& ladder,
+                               const CurveOptions& options) {
+  const std::vector<double> shortest = shortest_edges(*result.linear, *result.topology);
+  std::size_t missed = 0;
+  for (Index slot : ladder.lowered_faces) {
+    const Index f = wall.faces[at(slot)];
+    const double length = deviation_length(*result.linear, *result.topology, f, shortest, options.orders);
+    missed += result.face_deviation[at(f)] > options.orders.deviation * length;
+  }
+  return missed;
+}
+
+void decide(const CurveResult& result, const Placement& placement, const Wall& wall,
+            const LadderResult& ladder, const CurveOptions& options, Report& report) {
+  const Association& association = result.association;
   std::size_t unplaced = 0;
   for (std::size_t s = 0; s < wall.edge_count(); ++s) unplaced += placement.is_edge_unplaced(static_cast<Index>(s));
   for (std::size_t s = 0; s < wall.face_count(); ++s) unplaced += placement.is_face_unplaced(static_cast<Index>(s));
@@ -344,7 +354,7 @@ void decide(const Association& association, const Placement& placement, const Wa
     report.status = "not_certified";
   } else if (report.rescue.scaled_back > 0) {
     report.status = "scaled_back";
-  } else if (unplaced > 0) {
+  } else if (unplaced > 0 || missed_by_lowering(result, wall, ladder, options) > 0) {
     report.status = "not_on_geometry";
   } else if (options.strict && report.surface.faces_over_deviation > 0) {
     report.status = "over_deviation";
@@ -361,7 +371,7 @@ std::size_t peak_memory() {
 }  // namespace
 
 void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& wall, const Placement& placement,
-               const Columns& columns, const RescueResult& rescue,
+               const Columns& columns, const LadderResult& ladder,
                const CurveOptions& options) {
   Report& report = result.report;
   report.command = "curve";
@@ -371,9 +381,9 @@ void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& w
   measure_gaps(result, report);
   measure_surface(result, geometry, wall, placement, options, report);
   measure_wall_spacing(result, wall, columns, report);
-  list_rescue(result, wall, placement, rescue, report);
+  list_rescue(result, wall, placement, ladder, report);
   warn(result, report);
-  decide(result.association, placement, wall, options, report);
+  decide(result, placement, wall, ladder, options, report);
   report.peak_bytes = peak_memory();
 }
 

@@ -10,7 +10,7 @@
 namespace camber {
 namespace {
 
-constexpr std::size_t k_places_listed = 20;  // the JSON report has all
+constexpr std::size_t k_places_listed = 10;  // the farthest; the JSON report has all
 constexpr std::size_t k_line = 96;
 
 std::string number(double value) { return fmt::format("{:.3g}", value); }
@@ -141,7 +141,11 @@ void add_surface(const Report& report, std::string& out) {
   }
   if (!s.patches_without_cad.empty()) {
     if (s.faces == 0) out += "\n";
-    out += wrapped("  no CAD:", s.patches_without_cad);
+    std::vector<std::string> names;  // one patch may be several surfaces of one name
+    for (const std::string& patch : s.patches_without_cad) {
+      if (std::find(names.begin(), names.end(), patch) == names.end()) names.push_back(patch);
+    }
+    out += wrapped("  no CAD:", names);
   }
 }
 
@@ -203,8 +207,12 @@ void add_rescue(const Report& report, std::string& out) {
       r.scaled_back, r.orders_lowered, r.pinched);
   TextTable table;
   table.add({"place", "cell", "off by", "centre", "reason"});
-  for (std::size_t i = 0; i < std::min(r.places.size(), k_places_listed); ++i) {
-    const RescuePlace& p = r.places[i];
+  std::vector<RescuePlace> places = r.places;
+  std::stable_sort(places.begin(), places.end(), [](const RescuePlace& a, const RescuePlace& b) {
+    return a.distance > b.distance;
+  });
+  places.resize(std::min(places.size(), k_places_listed));
+  for (const RescuePlace& p : places) {
     table.add({std::string(name(p.shape)), fmt::format("{}", p.cell), number(p.distance),
                place(p.centre), p.reason});
   }

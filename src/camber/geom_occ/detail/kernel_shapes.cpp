@@ -14,6 +14,7 @@
 #include <Geom_Line.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <Standard_Failure.hxx>
 #include <TColStd_Array1OfReal.hxx>
 
 namespace camber::occ {
@@ -86,9 +87,15 @@ class KernelSurface final : public ParametricSurface {
 
   SurfaceJet jet(const Vec2& uv) const override {
     gp_Pnt s;
-    gp_Vec su, sv, suu, svv, suv;
-    surface_->D2(wrap_period(uv[0], natural_.lower[0], periods_[0]),
-                 wrap_period(uv[1], natural_.lower[1], periods_[1]), s, su, sv, suu, svv, suv);
+    gp_Vec su, sv, suu, svv, suv;  // zero vectors
+    const double u = wrap_period(uv[0], natural_.lower[0], periods_[0]);
+    const double v = wrap_period(uv[1], natural_.lower[1], periods_[1]);
+    try {
+      surface_->D2(u, v, s, su, sv, suu, svv, suv);
+    } catch (const Standard_Failure&) {  // offset surfaces at singular points have a place only
+      su = sv = suu = svv = suv = gp_Vec();
+      surface_->D0(u, v, s);
+    }
     return {to_vec(s.XYZ()),   to_vec(su.XYZ()),  to_vec(sv.XYZ()),
             to_vec(suu.XYZ()), to_vec(suv.XYZ()), to_vec(svv.XYZ())};
   }

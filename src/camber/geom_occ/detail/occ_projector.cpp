@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <BRep_Tool.hxx>
+#include <Precision.hxx>
 #include <TopoDS_Vertex.hxx>
 
 namespace camber::occ {
@@ -14,6 +15,11 @@ namespace {
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 /// A line has met the surface if it passes within this part of the face's size.
 constexpr double k_crossing = 1e-10;
+
+/// A seed that is no number is none.
+std::optional<Vec2> finite(const std::optional<Vec2>& seed) {
+  return seed && seed->allFinite() ? seed : std::nullopt;
+}
 
 Projection failed(GeomEntity entity, const Vec3& x) {
   Projection result;
@@ -29,8 +35,9 @@ OccProjector::OccProjector(std::shared_ptr<const Body> body, double scale)
     : body_(std::move(body)), scale_(scale), trims_(at(body_->topology().count(2))) {}
 
 Projection OccProjector::closest(GeomEntity entity, const Vec3& x,
-                                 const std::optional<Vec2>& seed) {
+                                 const std::optional<Vec2>& given_seed) {
   body_->check(entity);
+  const std::optional<Vec2> seed = finite(given_seed);
   if (!x.allFinite()) return failed(entity, x);
   try {
     const Vec3 inner = x / scale_;
@@ -89,8 +96,16 @@ bool OccProjector::is_in_trim(int face, const FaceData& data, const SurfaceFoot&
   std::unique_ptr<Trim>& trim = trims_[at(face - 1)];
   if (!trim) trim = std::make_unique<Trim>(data);
   if (trim->contains(foot.uv)) return true;
-  // Outside by no more than the gap between the face and its border curves: still the face.
-  return closest_on_border(data, foot.point, data.gap * data.gap).edge != nullptr;
+  // Outside by no more than the tolerance of the edge that it is at: still the face.
+  for (const FaceEdge& edge : data.edges) {
+    const CurveData& curve = body_->curve(edge.tag);
+    const double gap = std::max(curve.tolerance, Precision::Confusion());
+    if (curve.is_degenerate ? (foot.point - curve.tip).norm() <= gap
+                            : distance_squared(curve.tree->box(), foot.point) <= gap * gap &&
+                                  curve.tree->nearest(foot.point, gap * gap).has_value())
+      return true;
+  }
+  return false;
 }
 
 Projection OccProjector::finished(int face, const FaceData& data, const Vec3& point, const Vec2& uv,
@@ -108,7 +123,7 @@ Projection OccProjector::closest_on_face(int face, const Vec3& x, const std::opt
   const auto is_foot = [&](const SurfaceFoot& foot) {
     return foot.is_converged && foot.tangential <= data.gap && is_in_trim(face, data, foot);
   };
-  if (seed && seed->allFinite()) {
+  if (seed) {
     const SurfaceFoot foot = find_foot(*data.surface, x, *seed, data.limits, data.tree->size());
     if (is_foot(foot))
       return finished(face, data, foot.point, foot.uv, std::sqrt(foot.distance_squared),
@@ -121,18 +136,19 @@ Projection OccProjector::closest_on_face(int face, const Vec3& x, const std::opt
         if (foot.distance_squared < any.distance_squared) any = foot;
         if (foot.distance_squared < best.distance_squared && is_foot(foot)) best = foot;
       });
-  // The border wins only if it is nearer by more than the gap between the face and its curves.
   const double distance = std::sqrt(best.distance_squared);
-  const double bound = std::max(0.0, distance - data.gap);
-  const BorderPoint border = closest_on_border(data, x, bound * bound);
-  if (border.edge != nullptr) {
+  const BorderPoint border = closest_on_border(data, x, best.distance_squared);
+  const double on_border = std::sqrt(border.distance_squared);
+  // The border wins only if it is nearer by more than the gap between its curve and the face.
+  if (border.edge != nullptr &&
+      distance - on_border >
+          std::max(body_->curve(border.edge->tag).tolerance, Precision::Confusion())) {
     Vec2 uv = edge_uv(data, *border.edge, border.t, seed);
     if ((data.surface->jet(uv).s - border.point).norm() > data.gap) {  // the two curves run apart
       const SurfaceFoot foot =
           find_foot(*data.surface, border.point, uv, data.limits, data.tree->size());
       uv = foot.uv;
     }
-    const double on_border = std::sqrt(border.distance_squared);
     return finished(face, data, border.point, uv, on_border, ProjectionStatus::boundary, seed);
   }
   if (std::isfinite(distance))
@@ -143,8 +159,9 @@ Projection OccProjector::closest_on_face(int face, const Vec3& x, const std::opt
 
 std::optional<Projection> OccProjector::along_line(int face, const Vec3& x, const Vec3& direction,
                                                    double max_distance,
-                                                   const std::optional<Vec2>& seed) {
+                                                   const std::optional<Vec2>& given_seed) {
   body_->check({2, face});
+  const std::optional<Vec2> seed = finite(given_seed);
   const double length = direction.norm();
   if (!x.allFinite() || !(length > 0.0) || !std::isfinite(length) || !(max_distance >= 0.0))
     return {};
@@ -164,7 +181,7 @@ std::optional<Projection> OccProjector::along_line(int face, const Vec3& x, cons
     const auto found = [&] {
       return finished(face, data, best.point, best.uv, bound, ProjectionStatus::inside, seed);
     };
-    if (seed && seed->allFinite()) {
+    if (seed) {
       take(find_line_foot(*data.surface, inner, d, *seed, data.limits, data.tree->size()));
       if (std::isfinite(best.distance_squared)) return found();
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Geom2d_Curve.hxx>
+#include <gp_Pnt2d.hxx>
 
 namespace camber::occ {
 

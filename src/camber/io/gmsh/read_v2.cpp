@@ -152,7 +152,7 @@ void classify_nodes(MeshData& mesh) {
 
 /// Tags and nodes of one element whose type and number of tags are known.
 void read_element(ReaderState& state, Groups& groups, const ElementType& type,
-                  std::int64_t tag_count, std::int64_t number) {
+                  std::int64_t tag_count, GlobalId number) {
   Cursor& in = state.in;
   int physical = 0;
   int elementary = 0;
@@ -185,7 +185,7 @@ void read_binary_elements(ReaderState& state, Groups& groups, std::size_t total)
     }
     const std::int64_t tags = read_tag_count(in);
     for (std::int64_t i = 0; i < following; ++i) {
-      const std::int64_t number = in.int_value("an element number");
+      const GlobalId number = state.read_element_number(false);
       read_element(state, groups, type, tags, number);
     }
     done += static_cast<std::size_t>(following);
@@ -232,7 +232,7 @@ void read_elements_v2(ReaderState& state) {
     read_binary_elements(state, groups, count);
   } else {
     for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t number = in.int_value("an element number");
+      const GlobalId number = state.read_element_number(false);
       const ElementType type = state.read_type();
       const std::int64_t tags = read_tag_count(in);
       read_element(state, groups, type, tags, number);

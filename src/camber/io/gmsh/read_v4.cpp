@@ -115,7 +115,7 @@ void read_element_block(ReaderState& state) {
   block.tags.reserve(count);
   block.nodes.reserve(count * nodes);
   for (std::size_t i = 0; i < count; ++i) {
-    block.tags.push_back(in.size_value("an element number"));
+    block.tags.push_back(state.read_element_number(true));
     state.add_element_nodes(type, order, true, block.nodes);
   }
   state.mesh.blocks.push_back(std::move(block));

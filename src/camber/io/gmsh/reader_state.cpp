@@ -33,6 +33,14 @@ void ReaderState::finish_nodes() {
   last_use.assign(mesh.points.size(), k_none);
 }
 
+GlobalId ReaderState::read_element_number(bool wide) {
+  const char* const expected = "an element number of 1 or more";
+  const std::size_t place = in.next();
+  const std::int64_t number = wide ? in.size_value(expected) : in.int_value(expected);
+  if (number < 1) in.fail(place, std::to_string(number), expected);
+  return number;
+}
+
 void ReaderState::add_element_nodes(const ElementType& type, std::span<const int> file2canonical,
                                     bool wide, std::vector<Index>& nodes) {
   const auto count = static_cast<std::size_t>(type.node_count);

@@ -28,6 +28,8 @@ struct ReaderState {
   /// Checks that the numbers differ and makes them ready for look-up.
   void finish_nodes();
 
+  /// The number of an element, checked; `wide` as below.
+  [[nodiscard]] GlobalId read_element_number(bool wide);
   /// Reads the nodes of one element and appends them in canonical order. `wide` tells that a binary
   /// file stores them in 8 bytes.
   void add_element_nodes(const ElementType& type, std::span<const int> file2canonical, bool wide,

@@ -101,7 +101,10 @@ void number(const MeshData& mesh, const std::string& display, WritePlan& plan) {
   }
   GlobalId last = 0;
   for (const ElementBlock& b : mesh.blocks) {
-    for (const GlobalId tag : b.tags) last = std::max(last, tag);
+    for (const GlobalId tag : b.tags) {
+      if (tag < 1) throw std::invalid_argument("element numbers of 1 or more expected");
+      last = std::max(last, tag);
+    }
   }
   for (const ElementBlock& b : mesh.blocks) {
     std::vector<GlobalId> tags = b.tags;

@@ -81,12 +81,15 @@ struct KernelOutput {
 using Kernel = void (*)(const KernelPlan& plan, const StraightView* straight, const double* nodes,
                         double* work, const KernelOutput& out);
 
-/// The widest kernel this machine runs, and the scalar one; all give the same bits.
+/// A kernel and how many elements it takes; all kernels give the same bits.
 struct KernelChoice {
   Kernel run = nullptr;
   int lanes = 1;
 };
-[[nodiscard]] KernelChoice widest_kernel();
+/// The kernel for 1, 2, 4 or 8 lanes; run is null where this build or this machine has none.
+[[nodiscard]] KernelChoice kernel_of(int lanes);
 [[nodiscard]] KernelChoice scalar_kernel();
+/// The one with the most lanes this machine has.
+[[nodiscard]] KernelChoice widest_kernel();
 
 }  // namespace camber::detail

@@ -101,7 +101,10 @@ class Search {
       double value = c[n] + margin;
       zero_seen_ = zero_seen_ || std::abs(c[n]) <= margin;
       if (ratio_.denominator != nullptr) {
-        if (!(c[size_ + n] > bottom_margin)) continue;
+        if (!(c[size_ + n] > bottom_margin)) {
+          denominator_fails_ = true;
+          continue;
+        }
         value = -smallest_quotient(-value, c[size_ + n], bottom_margin);
       }
       if (value < upper_) {
@@ -149,7 +152,7 @@ class Search {
   [[nodiscard]] bool is_done(int splits) const {
     const double low = lower();
     const bool sign_known = !goal_.sign || low > 0.0 || upper_ < 0.0;
-    if (sign_known && is_sharp(low)) return true;
+    if (denominator_fails_ || (sign_known && is_sharp(low))) return true;
     if (splits >= goal_.max_splits) return true;
     return goal_.sign && !sign_known && zero_seen_ && splits >= k_splits_after_zero;
   }
@@ -197,7 +200,8 @@ class Search {
   double growth_ = 0.0, denominator_growth_ = 0.0;
   double retired_lower_ = k_infinity;
   double upper_ = k_infinity;
-  bool zero_seen_ = false;  // a value that round-off cannot tell from zero
+  bool zero_seen_ = false;          // a value that round-off cannot tell from zero
+  bool denominator_fails_ = false;  // somewhere it is not positive: there is no lower bound
   int upper_part_ = 0;
   std::size_t upper_corner_ = 0;
 };

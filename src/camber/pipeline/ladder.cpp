@@ -1,0 +1,119 @@
+#include <camber/pipeline/ladder.hpp>
+
+#include <algorithm>
+
+#include <camber/elevate/apply_field.hpp>
+
+namespace camber {
+namespace {
+
+void make_unique(std::vector<Index>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+/// Wall faces that the cells stand on: the foot of their column, or their own faces on the wall.
+std::vector<Index> feet(const Topology& topology, const Wall& wall, const Columns& columns,
+                        const std::vector<Index>& cells) {
+  std::vector<Index> slots;
+  for (Index c : cells) {
+    if (columns.cell_face_slot[at(c)] != k_none) slots.push_back(columns.cell_face_slot[at(c)]);
+    for (Index f : topology.faces_of_cell(c)) {
+      if (wall.face_slot[at(f)] != k_none) slots.push_back(wall.face_slot[at(f)]);
+    }
+  }
+  make_unique(slots);
+  return slots;
+}
+
+/// Splits off the cells that moving volume nodes cannot mend: those on a wall face whose first cell is bad (the
+/// wall nodes themselves are misplaced), and everything over such a face.
+std::vector<Index> take_wall_faults(const Topology& topology, const Wall& wall, const Columns& columns,
+                                    std::vector<Index>& bad) {
+  std::vector<std::uint8_t> is_fault(wall.face_count(), 0);
+  for (Index c : bad) {
+    const Index slot = columns.cell_face_slot[at(c)];
+    if (slot == k_none) continue;
+    const std::array<Index, 2>& first = topology.face2cell[at(wall.faces[at(slot)])];
+    if (first[0] == c || first[1] == c) is_fault[at(slot)] = 1;
+  }
+  std::vector<Index> faults, others;
+  for (Index c : bad) {
+    const Index slot = columns.cell_face_slot[at(c)];
+    (slot != k_none && is_fault[at(slot)] ? faults : others).push_back(c);
+  }
+  bad = std::move(others);
+  return faults;
+}
+
+/// Cells that touch a vertex standing over one of the wall faces.
+std::vector<Index> cells_over(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
+                              const Columns& columns, const std::vector<Index>& slots) {
+  std::vector<std::uint8_t> is_foot(mesh.vertices.size(), 0);
+  for (Index slot : slots) {
+    const Index f = wall.faces[at(slot)];
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      is_foot[at(topology.face2vertex[at(f)][static_cast<std::size_t>(i)])] = 1;
+    }
+  }
+  std::vector<Index> cells;
+  for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
+    for (Index v : mesh.cell(c)) {
+      const Index base = columns.base[at(v)];
+      if (base == k_none || !is_foot[at(base)]) continue;
+      cells.push_back(c);
+      break;
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+LadderResult climb(CurvedMesh& curved, Placement& placement, const LayerField& field, const Wall& wall,
+                   const Columns& columns, const std::vector<Index>& uncertified) {
+  LadderResult result;
+  result.uncertified_at_start = uncertified.size();
+  const LinearMesh& mesh = curved.linear();
+  const Topology& topology = curved.topology();
+  const FixedEntities fixed = boundary_entities(topology);
+  std::vector<Index> bad = uncertified;
+  for (int pass = 0; pass <= 2 * k_max_order && !bad.empty(); ++pass) {
+    std::vector<Index> to_lower = take_wall_faults(topology, wall, columns, bad);
+    if (to_lower.empty()) {
+      const UntangleResult mended = untangle(curved, bad, fixed);
+      result.patches_repaired += mended.repaired;
+      bad = mended.still_bad;
+      to_lower = bad;
+    }
+    const std::vector<Index> slots = feet(topology, wall, columns, to_lower);
+    std::vector<std::pair<Index, int>> caps;
+    for (Index slot : slots) {
+      caps.emplace_back(slot, std::min(placement.face_cap(slot), curved.face_order(wall.faces[at(slot)])) - 1);
+    }
+    const std::vector<Index> changed = placement.lower(caps);
+    if (changed.empty()) break;
+    result.lowered_faces.insert(result.lowered_faces.end(), slots.begin(), slots.end());
+    std::vector<Index> again = cells_over(mesh, topology, wall, columns, changed);
+    apply_field(field, curved, again);
+    again.insert(again.end(), bad.begin(), bad.end());
+    again.insert(again.end(), to_lower.begin(), to_lower.end());
+    for (Index c : std::vector<Index>(again)) {
+      for (Index f : topology.faces_of_cell(c)) {
+        for (Index side : topology.face2cell[at(f)]) {
+          if (side != k_none) again.push_back(side);
+        }
+      }
+    }
+    make_unique(again);
+    bad = uncertified_cells(curved, again);
+  }
+  make_unique(result.lowered_faces);
+  std::erase_if(result.lowered_faces, [&](Index slot) {
+    return placement.face_cap(slot) >= curved.face_order(wall.faces[at(slot)]);
+  });
+  result.scaled = scale_back(curved, bad);
+  return result;
+}
+
+}  // namespace camber

@@ -1,0 +1,370 @@
+#include <camber/smooth/patch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <camber/basis/lagrange.hpp>
+#include <camber/basis/quadrature.hpp>
+#include <camber/smooth/distortion.hpp>
+#include <camber/smooth/lbfgs.hpp>
+#include <camber/validity/element_validity.hpp>
+
+namespace camber {
+namespace {
+
+std::size_t sz(Eigen::Index i) { return static_cast<std::size_t>(i); }
+
+/// Weight of all lattice samples of a cell together, beside 1 for its Gauss points.
+constexpr double k_lattice_weight = 0.1;
+/// A repaired cell should keep at least this share of its straight Jacobian at every sample before the group
+/// is tested.
+constexpr double k_wanted_ratio = 0.05;
+
+void make_unique(std::vector<Index>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+/// Regularisation of barely inverted groups, and its factor from round to round.
+constexpr double k_least_delta = 0.03;
+constexpr double k_delta_shrink = 0.6;
+
+/// Longest step of the optimiser: strain of the whole group, summed in squares.
+constexpr double k_longest_step = 0.5;
+
+struct Sample {
+  Mat3 A0;               // Jacobian from the fixed nodes
+  Mat3 W_inverse;
+  double weight = 0.0;
+  MatX gradient;         // free nodes of the cell x 3: dN/dxi
+};
+
+
+/// The free nodes of a group and how the cells around depend on them.
+class Patch {
+ public:
+  Patch(CurvedMesh& curved, const std::vector<Index>& core, const FixedEntities& fixed) : curved_(curved) {
+    const Topology& topology = curved.topology();
+    for (Index c : core) {
+      for (Index e : topology.edges_of_cell(c)) {
+        if (!fixed.edge[at(e)] && !curved.edge_nodes(e).empty()) edges_.push_back(e);
+      }
+      for (Index f : topology.faces_of_cell(c)) {
+        if (!fixed.face[at(f)] && !curved.face_nodes(f).empty()) faces_.push_back(f);
+      }
+      if (!curved.cell_nodes(c).empty()) insides_.push_back(c);
+    }
+    make_unique(edges_);
+    make_unique(faces_);
+    make_unique(insides_);
+    for (Index e : edges_) {
+      for (Index c : topology.cells_of_edge(e)) cells_.push_back(c);
+    }
+    for (Index f : faces_) {
+      for (Index c : topology.face2cell[at(f)]) {
+        if (c != k_none) cells_.push_back(c);
+      }
+    }
+    cells_.insert(cells_.end(), insides_.begin(), insides_.end());
+    make_unique(cells_);
+    for_each_entity([&](std::span<Vec3> nodes) { free_count_ += nodes.size(); });
+  }
+
+  [[nodiscard]] const std::vector<Index>& cells() const { return cells_; }
+  [[nodiscard]] std::size_t free_count() const { return free_count_; }
+
+  [[nodiscard]] VecX positions() {
+    VecX x(static_cast<Eigen::Index>(3 * free_count_));
+    Eigen::Index k = 0;
+    for_each_entity([&](std::span<Vec3> nodes) {
+      for (const Vec3& node : nodes) {
+        x.segment<3>(k) = node;
+        k += 3;
+      }
+    });
+    return x;
+  }
+  void set_positions(const VecX& x) {
+    Eigen::Index k = 0;
+    for_each_entity([&](std::span<Vec3> nodes) {
+      for (Vec3& node : nodes) {
+        node = x.segment<3>(k);
+        k += 3;
+      }
+    });
+  }
+
+  /// Finds, by moving one node at a time, which nodes of which cell depend on it and how: gather is linear.
+  void build() {
+    std::vector<std::vector<std::pair<Index, VecX>>> columns(cells_.size());
+    const VecX x = positions();
+    set_positions(VecX::Zero(x.size()));
+    std::vector<Points> base(cells_.size());
+    for (std::size_t i = 0; i < cells_.size(); ++i) curved_.gather(cells_[i], curved_.cell_order(cells_[i]), base[i]);
+    Index number = 0;
+    Points nodes;
+    const auto probe = [&](std::span<Vec3> own, const std::vector<Index>& touching) {
+      for (Vec3& node : own) {
+        node.x() = 1.0;
+        for (Index c : touching) {
+          const std::size_t i = static_cast<std::size_t>(std::lower_bound(cells_.begin(), cells_.end(), c) - cells_.begin());
+          curved_.gather(c, curved_.cell_order(c), nodes);
+          VecX column(static_cast<Eigen::Index>(nodes.size()));
+          for (std::size_t n = 0; n < nodes.size(); ++n) {
+            column[static_cast<Eigen::Index>(n)] = nodes[n].x() - base[i][n].x();
+          }
+          columns[i].emplace_back(number, std::move(column));
+        }
+        node.x() = 0.0;
+        ++number;
+      }
+    };
+    const Topology& topology = curved_.topology();
+    for (Index e : edges_) {
+      const std::span<const Index> c = topology.cells_of_edge(e);
+      probe(curved_.edge_nodes(e), {c.begin(), c.end()});
+    }
+    for (Index f : faces_) {
+      std::vector<Index> c;
+      for (Index side : topology.face2cell[at(f)]) {
+        if (side != k_none) c.push_back(side);
+      }
+      probe(curved_.face_nodes(f), c);
+    }
+    for (Index c : insides_) probe(curved_.cell_nodes(c), {c});
+    for (std::size_t i = 0; i < cells_.size(); ++i) add_cell(cells_[i], base[i], columns[i]);
+    set_positions(x);
+  }
+
+  /// Another sample where a certificate failed.
+  void add_sample(std::size_t i, const Vec3& xi) { add_samples(data_[i], std::span(&xi, 1), std::array{1.0}); }
+
+  [[nodiscard]] double evaluate(const VecX& x, double delta, VecX& gradient) const {
+    gradient.setZero(x.size());
+    double energy = 0.0;
+    for (const CellData& cell : data_) {
+      const Eigen::Index n = static_cast<Eigen::Index>(cell.free.size());
+      MatX local(n, 3);
+      for (Eigen::Index k = 0; k < n; ++k) local.row(k) = x.segment<3>(3 * cell.free[sz(k)]).transpose();
+      MatX slope = MatX::Zero(n, 3);
+      for (const Sample& s : cell.samples) {
+        const Mat3 A = s.A0 + local.transpose() * s.gradient;
+        const Mat3 T = A * s.W_inverse;
+        const Distortion d = distortion(T, delta);
+        if (!std::isfinite(d.energy)) return std::numeric_limits<double>::infinity();
+        energy += s.weight * d.energy;
+        const Mat3 dA = s.weight * d.gradient * s.W_inverse.transpose();
+        slope.noalias() += s.gradient * dA.transpose();
+      }
+      for (Eigen::Index k = 0; k < n; ++k) gradient.segment<3>(3 * cell.free[sz(k)]) += slope.row(k).transpose();
+    }
+    return energy;
+  }
+
+  [[nodiscard]] double least_ratio(const VecX& x) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const CellData& cell : data_) {
+      const Eigen::Index n = static_cast<Eigen::Index>(cell.free.size());
+      MatX local(n, 3);
+      for (Eigen::Index k = 0; k < n; ++k) local.row(k) = x.segment<3>(3 * cell.free[sz(k)]).transpose();
+      for (const Sample& s : cell.samples) {
+        const Mat3 A = s.A0 + local.transpose() * s.gradient;
+        least = std::min(least, (A * s.W_inverse).determinant());
+      }
+    }
+    return least;
+  }
+
+  /// Inverse of the diagonal of sum w |W^-T grad N_i|^2: the energy's stiffness at rest.
+  [[nodiscard]] VecX inverse_diagonal() const {
+    VecX diagonal = VecX::Zero(static_cast<Eigen::Index>(3 * free_count_));
+    for (const CellData& cell : data_) {
+      for (const Sample& s : cell.samples) {
+        const MatX g = s.gradient * s.W_inverse;
+        for (Eigen::Index k = 0; k < g.rows(); ++k) {
+          diagonal.segment<3>(3 * cell.free[sz(k)]).array() += s.weight * g.row(k).squaredNorm();
+        }
+      }
+    }
+    return diagonal.cwiseMax(1e-300).cwiseInverse();
+  }
+
+ private:
+  struct CellData {
+    Index cell;
+    Shape shape;
+    int order;
+    Points base, straight;
+    std::vector<Index> free;
+    MatX dependence;  // nodes x free
+    std::vector<Sample> samples;
+  };
+
+  template <class Visit>
+  void for_each_entity(Visit visit) {
+    for (Index e : edges_) visit(curved_.edge_nodes(e));
+    for (Index f : faces_) visit(curved_.face_nodes(f));
+    for (Index c : insides_) visit(curved_.cell_nodes(c));
+  }
+
+  void add_cell(Index c, const Points& base, const std::vector<std::pair<Index, VecX>>& columns) {
+    CellData cell{c, curved_.linear().cell_shape[at(c)], curved_.cell_order(c), base, {}, {}, {}, {}};
+    curved_.gather_straight(c, cell.order, cell.straight);
+    cell.dependence.resize(static_cast<Eigen::Index>(base.size()), static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      cell.free.push_back(columns[k].first);
+      cell.dependence.col(static_cast<Eigen::Index>(k)) = columns[k].second;
+    }
+    const Quadrature& rule = gauss(cell.shape, 2 * cell.order);
+    std::vector<double> weight = rule.weights;
+    for (double& w : weight) w /= reference_measure(cell.shape);
+    add_samples(cell, rule.points, weight);
+    const std::span<const Vec3> points = lattice_xi(cell.shape, cell.order);
+    weight.assign(points.size(), k_lattice_weight / static_cast<double>(points.size()));
+    add_samples(cell, points, weight);
+    data_.push_back(std::move(cell));
+  }
+
+  void add_samples(CellData& cell, std::span<const Vec3> points, std::span<const double> weights) const {
+    std::vector<Vec3> dN(cell.base.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      // The pyramid's map is singular in shape at the apex: sample just below it.
+      Vec3 xi = points[i];
+      if (cell.shape == Shape::pyramid && xi.z() > 1.0 - 1e-3) xi = Vec3(5e-4, 5e-4, 1.0 - 1e-3);
+      lagrange_gradients(cell.shape, cell.order, xi, dN);
+      Sample s;
+      s.A0.setZero();
+      Mat3 W = Mat3::Zero();
+      s.gradient = MatX::Zero(cell.dependence.cols(), 3);
+      for (std::size_t n = 0; n < dN.size(); ++n) {
+        s.A0 += cell.base[n] * dN[n].transpose();
+        W += cell.straight[n] * dN[n].transpose();
+        s.gradient += cell.dependence.row(static_cast<Eigen::Index>(n)).transpose() * dN[n].transpose();
+      }
+      s.W_inverse = W.inverse();
+      s.weight = weights[i];
+      cell.samples.push_back(std::move(s));
+    }
+  }
+
+  CurvedMesh& curved_;
+  std::vector<Index> edges_, faces_, insides_, cells_;
+  std::size_t free_count_ = 0;
+  std::vector<CellData> data_;
+};
+
+/// Cells of the patch that are not certified, with where.
+std::vector<std::pair<std::size_t, Vec3>> failing_cells(const CurvedMesh& curved, const std::vector<Index>& cells) {
+  std::vector<std::pair<std::size_t, Vec3>> failing;
+  Points nodes;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Shape shape = curved.linear().cell_shape[at(cells[i])];
+    const int p = curved.cell_order(cells[i]);
+    curved.gather(cells[i], p, nodes);
+    if (quick_verdict(shape, p, nodes) == Verdict::valid) continue;
+    failing.emplace_back(i, certify(shape, p, nodes).worst_xi);
+  }
+  return failing;
+}
+
+bool repair(CurvedMesh& curved, Patch& patch, const UntangleOptions& options) {
+  patch.build();
+  const VecX start = patch.positions();
+  VecX x = start;
+  const VecX scale = patch.inverse_diagonal();
+  LbfgsOptions lbfgs;
+  lbfgs.max_iterations = options.iterations_per_round;
+  lbfgs.longest_step = k_longest_step;
+  for (int round = 0; round < options.max_rounds; ++round) {
+    const double least = patch.least_ratio(x);
+    // Wide at first, so that inverted samples see a slope; narrower each round, to push them through zero.
+    const double delta =
+        least > 0.0 ? 0.0 : std::max(k_least_delta, 0.3 * std::abs(least)) * std::pow(k_delta_shrink, round);
+    minimise_lbfgs([&](const VecX& y, VecX& g) { return patch.evaluate(y, delta, g); }, x, scale, lbfgs);
+    if (patch.least_ratio(x) <= 0.0 || (patch.least_ratio(x) < k_wanted_ratio && round == 0)) continue;
+    patch.set_positions(x);
+    const auto failing = failing_cells(curved, patch.cells());
+    if (failing.empty()) return true;
+    for (const auto& [i, xi] : failing) patch.add_sample(i, xi);
+  }
+  patch.set_positions(start);
+  return false;
+}
+
+std::vector<Index> neighbours(const Topology& topology, const std::vector<Index>& cells) {
+  std::vector<Index> grown = cells;
+  for (Index c : cells) {
+    for (Index e : topology.edges_of_cell(c)) {
+      for (Index other : topology.cells_of_edge(e)) grown.push_back(other);
+    }
+  }
+  make_unique(grown);
+  return grown;
+}
+
+/// Groups whose ring-grown cells overlap.
+std::vector<std::vector<Index>> connected_groups(const Topology& topology, const std::vector<Index>& cells) {
+  std::vector<std::vector<Index>> groups;
+  std::vector<std::uint8_t> is_taken(cells.size(), 0);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (is_taken[i]) continue;
+    is_taken[i] = 1;
+    std::vector<Index> group{cells[i]};
+    for (bool is_growing = true; is_growing;) {
+      is_growing = false;
+      const std::vector<Index> near = neighbours(topology, group);
+      for (std::size_t j = 0; j < cells.size(); ++j) {
+        if (is_taken[j] || !std::binary_search(near.begin(), near.end(), cells[j])) continue;
+        is_taken[j] = 1;
+        group.push_back(cells[j]);
+        is_growing = true;
+      }
+    }
+    make_unique(group);
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+}  // namespace
+
+FixedEntities boundary_entities(const Topology& topology) {
+  FixedEntities fixed;
+  fixed.edge.assign(topology.edge_count(), 0);
+  fixed.face.assign(topology.face_count(), 0);
+  for (Index f = 0; at(f) < topology.face_count(); ++f) {
+    if (!topology.is_boundary(f) && topology.face2patch_face[at(f)] == k_none) continue;
+    fixed.face[at(f)] = 1;
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      fixed.edge[at(topology.face2edge[at(f)][static_cast<std::size_t>(i)])] = 1;
+    }
+  }
+  return fixed;
+}
+
+UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified, const FixedEntities& fixed,
+                        const UntangleOptions& options) {
+  UntangleResult result;
+  for (const std::vector<Index>& group : connected_groups(curved.topology(), uncertified)) {
+    ++result.patches;
+    bool is_repaired = false;
+    std::vector<Index> core = group;
+    for (int ring = 0; ring < options.rings && !is_repaired; ++ring) {
+      core = neighbours(curved.topology(), core);
+      Patch patch(curved, core, fixed);
+      if (patch.free_count() == 0 || patch.cells().size() > options.max_cells) break;
+      is_repaired = repair(curved, patch, options);
+    }
+    if (is_repaired) {
+      ++result.repaired;
+    } else {
+      result.still_bad.insert(result.still_bad.end(), group.begin(), group.end());
+    }
+  }
+  std::sort(result.still_bad.begin(), result.still_bad.end());
+  return result;
+}
+
+}  // namespace camber

@@ -1,0 +1,37 @@
+#pragma once
+// Repairs small groups of cells by moving only nodes inside the volume.
+#include <cstdint>
+#include <vector>
+
+#include <camber/mesh/curved_mesh.hpp>
+
+namespace camber {
+
+/// Entities whose nodes must stay: everything on the boundary or on a wall.
+struct FixedEntities {
+  std::vector<std::uint8_t> edge, face;
+};
+/// Boundary faces, patch faces and their edges are fixed.
+[[nodiscard]] FixedEntities boundary_entities(const Topology& topology);
+
+struct UntangleOptions {
+  int rings = 2;              // layers of neighbours whose nodes may move too
+  int max_rounds = 12;        // of regularisation
+  int iterations_per_round = 40;
+  std::size_t max_cells = 4000;  // a larger patch is left alone
+};
+
+struct UntangleResult {
+  std::size_t patches = 0, repaired = 0;  // connected groups tried, and certified afterwards
+  std::vector<Index> still_bad;           // cells of groups that were put back as they were
+};
+
+/// For each connected group of uncertified cells: minimises the distortion energy over the free nodes of the
+/// group and its rings (L-BFGS, scaled by the diagonal of the energy's metric part), regularised while
+/// something is inverted, until every cell it touches is certified; else the group is put back as it was.
+/// Energy: Gauss points with weights of equal sum per cell, plus the lattice points with little weight, plus
+/// points where a certificate failed. Deterministic.
+UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified, const FixedEntities& fixed,
+                        const UntangleOptions& options = {});
+
+}  // namespace camber
