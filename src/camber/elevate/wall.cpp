@@ -31,20 +31,65 @@ double relative_height(const LinearMesh& mesh, const Topology& topology, Index f
   return height / shortest;
 }
 
+bool is_stacking_face(const LinearMesh& mesh, const Topology& topology, Index f) {
+  const Shape cell = mesh.cell_shape[at(topology.face2cell[at(f)][0])];
+  return (cell == Shape::prism && topology.face_shape[at(f)] == Shape::triangle) ||
+         (cell == Shape::hexahedron && topology.face_shape[at(f)] == Shape::quadrilateral);
+}
+
+/// How a plane meets the curved walls around it: edges shared, and those where one cell has both faces
+/// (layers that end on the plane).
+struct PlaneEdges {
+  std::size_t shared = 0, lateral = 0;
+};
+
+std::vector<PlaneEdges> count_plane_edges(const Topology& topology, const Association& association) {
+  std::vector<std::array<Index, 2>> cell_on_edge(topology.edge_count(), {k_none, k_none});
+  std::vector<PlaneEdges> count(association.patches.size());
+  for (Index f = 0; at(f) < topology.face_count(); ++f) {
+    const Patch* patch = association.patch_of(f);
+    if (!patch || patch->kind != PatchKind::cad) continue;
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      std::array<Index, 2>& cells = cell_on_edge[at(topology.face2edge[at(f)][static_cast<std::size_t>(i)])];
+      (cells[0] == k_none ? cells[0] : cells[1]) = topology.face2cell[at(f)][0];
+    }
+  }
+  for (Index f = 0; at(f) < topology.face_count(); ++f) {
+    const Patch* patch = association.patch_of(f);
+    if (!patch || patch->kind != PatchKind::plane) continue;
+    PlaneEdges& here = count[at(association.face2patch[at(f)])];
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      const std::array<Index, 2>& cells =
+          cell_on_edge[at(topology.face2edge[at(f)][static_cast<std::size_t>(i)])];
+      if (cells[0] == k_none) continue;
+      const Index own = topology.face2cell[at(f)][0];
+      ++here.shared;
+      here.lateral += own == cells[0] || own == cells[1];
+    }
+  }
+  return count;
+}
+
 std::vector<std::uint8_t> find_wall_patches(const LinearMesh& mesh, const Topology& topology,
                                             const Association& association) {
-  std::vector<std::uint8_t> is_wall(association.patches.size(), 0);
-  std::vector<std::size_t> flat(association.patches.size(), 0), total(association.patches.size(), 0);
+  const std::size_t n = association.patches.size();
+  std::vector<std::uint8_t> is_wall(n, 0);
+  std::vector<std::size_t> stacking(n, 0), flat(n, 0);
   for (Index f = 0; at(f) < topology.face_count(); ++f) {
     const Patch* patch = association.patch_of(f);
     if (!patch || patch->kind != PatchKind::plane || patch->group.empty()) continue;
     const std::size_t p = at(association.face2patch[at(f)]);
-    ++total[p];
+    if (!is_stacking_face(mesh, topology, f)) continue;
+    ++stacking[p];
     flat[p] += relative_height(mesh, topology, f) < k_flat_cell;
   }
-  for (std::size_t p = 0; p < is_wall.size(); ++p) {
-    const PatchKind kind = association.patches[p].kind;
-    is_wall[p] = kind == PatchKind::cad || (total[p] > 0 && 2 * flat[p] > total[p]);
+  const std::vector<PlaneEdges> edges = count_plane_edges(topology, association);
+  for (std::size_t p = 0; p < n; ++p) {
+    const Patch& patch = association.patches[p];
+    const bool carries_layers = 2 * stacking[p] > patch.faces;
+    const bool adjoins_wall = edges[p].shared > 0 && 2 * edges[p].lateral <= edges[p].shared;
+    const bool is_flat = edges[p].shared == 0 && 2 * flat[p] > patch.faces;
+    is_wall[p] = patch.kind == PatchKind::cad || (carries_layers && (adjoins_wall || is_flat));
   }
   return is_wall;
 }

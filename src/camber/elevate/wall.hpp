@@ -19,8 +19,8 @@ struct WallCorner {
 };
 
 /// Faces on CAD that the layers stand on, their edges and corners, numbered by slots of their own: all
-/// patches of kind `cad`, and the planes on CAD whose cells are flat on them (a blunt trailing edge, a flat
-/// body side; but not a symmetry plane that the layers end on).
+/// patches of kind `cad`, and the planes on CAD that prisms or hexahedra stand on and that continue a curved wall
+/// (a blunt trailing edge, a flat body side; but not a symmetry plane that the layers end on).
 struct Wall {
   std::vector<std::uint8_t> is_wall_patch;  // by patch
   std::vector<Index> faces;      // slot -> topology face
