@@ -53,7 +53,7 @@ int parse_and_run(int argc, char** argv) {
       "certified.\nExit codes: 0 done, 1 usage, 2 input unreadable or unusable, 3 done but not "
       "certified,\nnot watertight or not on the CAD, 4 bug, 130 interrupted.",
       "camber");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   const std::string version_line = fmt::format("camber {}", version());
   app.set_version_flag("--version", version_line);
   const std::vector<Verb> verbs{add_curve(app), add_check(app), add_info(app), add_convert(app),
@@ -73,6 +73,7 @@ int parse_and_run(int argc, char** argv) {
   for (const Verb& verb : verbs) {
     if (verb.app->parsed()) return run(verb);
   }
+  print_error("a verb is needed: curve, check, info, convert or cite (see: camber --help)");
   return k_usage;
 }
 

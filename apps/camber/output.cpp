@@ -44,8 +44,7 @@ void write_error_report(const CommonFlags& flags, const std::string& command,
     json["error"] = message;
     write_text(flags.json,
                json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-  } catch (const std::exception& second) {
-    print_error(second.what());
+  } catch (...) {  // the first error has been told; this one is mostly the same again
   }
 }
 

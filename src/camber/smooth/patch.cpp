@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <camber/basis/lagrange.hpp>
 #include <camber/basis/quadrature.hpp>
@@ -33,6 +34,9 @@ constexpr double k_delta_shrink = 0.6;
 
 /// Longest step of the optimiser: strain of the whole group, summed in squares.
 constexpr double k_longest_step = 0.5;
+
+/// Rounds without progress before a group is given up.
+constexpr int k_patience = 3;
 
 struct Sample {
   Mat3 A0;               // Jacobian from the fixed nodes
@@ -269,21 +273,25 @@ std::vector<std::pair<std::size_t, Vec3>> failing_cells(const CurvedMesh& curved
   return failing;
 }
 
+/// Optimises from the nodes as they are; true if all cells came out certified, else the nodes are put back.
 bool repair(CurvedMesh& curved, Patch& patch, const UntangleOptions& options) {
-  patch.build();
   const VecX start = patch.positions();
   VecX x = start;
   const VecX scale = patch.inverse_diagonal();
   LbfgsOptions lbfgs;
   lbfgs.max_iterations = options.iterations_per_round;
   lbfgs.longest_step = k_longest_step;
-  for (int round = 0; round < options.max_rounds; ++round) {
-    const double least = patch.least_ratio(x);
+  double least = patch.least_ratio(x), best = least;
+  int since_best = 0;
+  for (int round = 0; round < options.max_rounds && since_best < k_patience; ++round) {
     // Wide at first, so that inverted samples see a slope; narrower each round, to push them through zero.
     const double delta =
         least > 0.0 ? 0.0 : std::max(k_least_delta, 0.3 * std::abs(least)) * std::pow(k_delta_shrink, round);
     minimise_lbfgs([&](const VecX& y, VecX& g) { return patch.evaluate(y, delta, g); }, x, scale, lbfgs);
-    if (patch.least_ratio(x) <= 0.0 || (patch.least_ratio(x) < k_wanted_ratio && round == 0)) continue;
+    least = patch.least_ratio(x);
+    since_best = least > best + 0.05 * std::abs(best) ? 0 : since_best + 1;
+    best = std::max(best, least);
+    if (least <= 0.0 || (least < k_wanted_ratio && round == 0)) continue;
     patch.set_positions(x);
     const auto failing = failing_cells(curved, patch.cells());
     if (failing.empty()) return true;
@@ -302,6 +310,23 @@ std::vector<Index> neighbours(const Topology& topology, const std::vector<Index>
   }
   make_unique(grown);
   return grown;
+}
+
+/// Takes the displacement off the free entities of some cells.
+void straighten(CurvedMesh& curved, const CurvedMesh& straight, const std::vector<Index>& cells,
+                const FixedEntities& fixed) {
+  const auto copy = [](std::span<const Vec3> from, std::span<Vec3> to) {
+    std::copy(from.begin(), from.end(), to.begin());
+  };
+  for (Index c : cells) {
+    for (Index e : curved.topology().edges_of_cell(c)) {
+      if (!fixed.edge[at(e)]) copy(straight.edge_nodes(e), curved.edge_nodes(e));
+    }
+    for (Index f : curved.topology().faces_of_cell(c)) {
+      if (!fixed.face[at(f)]) copy(straight.face_nodes(f), curved.face_nodes(f));
+    }
+    copy(straight.cell_nodes(c), curved.cell_nodes(c));
+  }
 }
 
 /// Groups whose ring-grown cells overlap.
@@ -347,6 +372,7 @@ FixedEntities boundary_entities(const Topology& topology) {
 UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified, const FixedEntities& fixed,
                         const UntangleOptions& options) {
   UntangleResult result;
+  std::optional<CurvedMesh> straight;
   for (const std::vector<Index>& group : connected_groups(curved.topology(), uncertified)) {
     ++result.patches;
     bool is_repaired = false;
@@ -355,7 +381,15 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
       core = neighbours(curved.topology(), core);
       Patch patch(curved, core, fixed);
       if (patch.free_count() == 0 || patch.cells().size() > options.max_cells) break;
+      patch.build();
       is_repaired = repair(curved, patch, options);
+      if (is_repaired) break;
+      // A second start: the bad cells themselves straight. Flat cells tolerate little else.
+      const VecX carried = patch.positions();
+      if (!straight) straight.emplace(curved.linear(), curved.topology(), curved.orders());
+      straighten(curved, *straight, group, fixed);
+      is_repaired = repair(curved, patch, options);
+      if (!is_repaired) patch.set_positions(carried);
     }
     if (is_repaired) {
       ++result.repaired;

@@ -15,7 +15,7 @@ struct FixedEntities {
 [[nodiscard]] FixedEntities boundary_entities(const Topology& topology);
 
 struct UntangleOptions {
-  int rings = 2;              // layers of neighbours whose nodes may move too
+  int rings = 3;              // layers of neighbours whose nodes may move too
   int max_rounds = 12;        // of regularisation
   int iterations_per_round = 40;
   std::size_t max_cells = 4000;  // a larger patch is left alone
