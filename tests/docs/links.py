@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Every relative link of every Markdown page must lead to a file, and to a heading where it names one.
+"""Every relative link of every Markdown page must lead to a file, and to a heading where it names one;
+every source that a comment or page cites, as in [karman2022], must be in docs/references.bib.
 
-usage: links.py SOURCE_DIR     prints one line a dead link; exit code 1 if there is any.
+usage: links.py SOURCE_DIR     prints one line a fault; exit code 1 if there is any.
 """
 import pathlib
 import re
@@ -10,6 +11,7 @@ import sys
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)(?:\s+\"[^\"]*\")?\)|(?:src|href)=\"([^\"]+)\"")
 HEADING = re.compile(r"^#+\s+(.*?)\s*#*$", re.MULTILINE)
 CODE = re.compile(r"^```.*?^```|`[^`\n]*`", re.MULTILINE | re.DOTALL)
+CITATION = re.compile(r"\[([a-z]+(?:19|20)\d\d)\]")
 SKIPPED = {"build", "out", ".git"}
 
 
@@ -35,10 +37,20 @@ def dead_links(root):
                 yield f"{page.relative_to(root)}: {link}: no such heading"
 
 
+def unknown_citations(root):
+    keys = set(re.findall(r"^@\w+\{([^,]+),", (root / "docs/references.bib").read_text(), re.MULTILINE))
+    for folder, suffixes in (("src", (".hpp", ".cpp")), ("apps", (".hpp", ".cpp")), ("docs", (".md",))):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in suffixes:
+                for key in sorted(set(CITATION.findall(path.read_text())) - keys):
+                    yield f"{path.relative_to(root)}: [{key}] is not in docs/references.bib"
+
+
 def main():
-    dead = list(dead_links(pathlib.Path(sys.argv[1])))
-    print("\n".join(dead) or "every link resolves")
-    return 1 if dead else 0
+    root = pathlib.Path(sys.argv[1])
+    faults = [*dead_links(root), *unknown_citations(root)]
+    print("\n".join(faults) or "every link and citation resolves")
+    return 1 if faults else 0
 
 
 if __name__ == "__main__":

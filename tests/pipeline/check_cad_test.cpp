@@ -5,7 +5,7 @@
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/io/mesh_file.hpp>
 #include <camber/mesh/elevate_data.hpp>
-#include <camber/pipeline/cad_scale.hpp>
+#include <camber/associate/cad_scale.hpp>
 #include <camber/pipeline/check.hpp>
 
 #include <algorithm>

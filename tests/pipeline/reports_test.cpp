@@ -164,6 +164,10 @@ TEST(TextReport, ShowsThePapersTableWithTheLinearMeshBeside) {
 TEST(TextReport, IsPlainTextOfAtMostAHundredColumns) {
   Report report = filled();
   for (int i = 0; i < 40; ++i) report.options.emplace_back("option", std::to_string(i));
+  report.warnings.emplace_back(
+      "a long line that goes on and on so that it cannot stand on one line of a terminal, which "
+      "has "
+      "eighty to a hundred columns at most");
   std::istringstream text(text_report(report));
 
   for (std::string line; std::getline(text, line);) {

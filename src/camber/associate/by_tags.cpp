@@ -12,23 +12,19 @@
 namespace camber {
 namespace {
 
-/// Lengths per millimetre that users meet: OpenCASCADE gives millimetres.
-constexpr std::array<double, 7> k_usual_scales{1.0, 1e-3, 1e3, 1.0 / 25.4, 25.4, 1e-2, 1.0 / 304.8};
-/// Boxes of faceted and true surfaces differ; a wrong unit differs by 2.5 times at least.
-constexpr double k_box_mismatch = 0.25;
 /// A patch is planar if its vertices lie this near one plane, relative to the mesh size.
 constexpr double k_planarity = 1e-9;
 
 class TagAssociator {
  public:
-  TagAssociator(const LinearMesh& mesh, const Topology& topology, GeometryModel& model,
+  TagAssociator(const LinearMesh& mesh, const Topology& topology, const GeometryModel& model,
                 const TagOptions& options)
       : mesh_(mesh), topology_(topology), model_(model), options_(options) {}
 
   Association run() {
     by_entity_ = boundary_faces_by_entity(mesh_, topology_);
     classify_loose_faces();
-    find_scale();
+    result_.scale = model_.scale();
     make_patches();
     link_vertices();
     check_distances();
@@ -64,53 +60,6 @@ class TagAssociator {
     } else {
       by_entity_[0] = std::move(left);
     }
-  }
-
-  void find_scale() {
-    Box mesh_box, cad_box;
-    for (const auto& [entity, faces] : by_entity_) {
-      if (!is_cad_surface(entity)) continue;
-      cad_box.add(model_.box({2, entity}));
-      for (Index f : faces) {
-        for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-          mesh_box.add(mesh_.vertices[at(topology_.face2vertex[at(f)][static_cast<std::size_t>(i)])]);
-        }
-      }
-    }
-    if (mesh_box.is_empty()) {
-      throw GeometryError(
-          fmt::format("no surface of the mesh refers to the CAD, which has faces 1..{}", model_.count(2)),
-          "association by tags",
-          "mesh the CAD file with Gmsh so that surface tags are those of the CAD, with Mesh.SaveAll=1");
-    }
-    const double current = model_.scale();
-    if (options_.scale > 0.0) {
-      model_.set_scale(options_.scale);
-      result_.scale = options_.scale;
-      return;
-    }
-    const auto mismatch = [&](double factor) {
-      const double size = std::max(mesh_box.diagonal(), factor * cad_box.diagonal());
-      return std::max((mesh_box.lower - factor * cad_box.lower).norm(),
-                      (mesh_box.upper - factor * cad_box.upper).norm()) / size;
-    };
-    double best = 1.0;
-    for (double factor : k_usual_scales) {
-      if (mismatch(factor) < mismatch(best)) best = factor;
-    }
-    if (mismatch(best) > k_box_mismatch) {
-      throw GeometryError(
-          fmt::format("the mesh's walls span ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), "
-                      "their CAD faces ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), and no usual unit "
-                      "makes them equal",
-                      mesh_box.lower.x(), mesh_box.lower.y(), mesh_box.lower.z(), mesh_box.upper.x(),
-                      mesh_box.upper.y(), mesh_box.upper.z(), cad_box.lower.x(), cad_box.lower.y(),
-                      cad_box.lower.z(), cad_box.upper.x(), cad_box.upper.y(), cad_box.upper.z()),
-          "association by tags", "give the CAD that this mesh was made from, or --unit");
-    }
-    model_.set_scale(current * best);
-    result_.scale = current * best;
-    if (best != 1.0) log(LogLevel::info, fmt::format("CAD lengths are multiplied by {}", best));
   }
 
   void make_patches() {
@@ -298,7 +247,7 @@ class TagAssociator {
 
   const LinearMesh& mesh_;
   const Topology& topology_;
-  GeometryModel& model_;
+  const GeometryModel& model_;
   const TagOptions& options_;
   std::map<int, std::vector<Index>> by_entity_;
   std::set<std::string> named_;
@@ -307,7 +256,7 @@ class TagAssociator {
 
 }  // namespace
 
-Association associate_by_tags(const LinearMesh& mesh, const Topology& topology, GeometryModel& model,
+Association associate_by_tags(const LinearMesh& mesh, const Topology& topology, const GeometryModel& model,
                               const TagOptions& options) {
   return TagAssociator(mesh, topology, model, options).run();
 }

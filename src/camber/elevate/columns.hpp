@@ -13,7 +13,7 @@ struct Columns {
   std::size_t column_count = 0;       // wall faces that carry at least one cell
 };
 
-/// Walks layer by layer from every wall face through the opposite faces of prisms (on triangles) and
+/// Walks from every wall face, nearest cells first, through the opposite faces of prisms (on triangles) and
 /// hexahedra (on quadrilaterals). A column ends at another shape, at the boundary, or where a vertex already
 /// belongs to another foot.
 [[nodiscard]] Columns find_columns(const LinearMesh& mesh, const Topology& topology, const Wall& wall);

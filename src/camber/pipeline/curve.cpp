@@ -7,6 +7,7 @@
 
 
 
+#include <camber/associate/cad_scale.hpp>
 #include <camber/base/parallel.hpp>
 #include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/rescue.hpp>
@@ -61,6 +62,7 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("associate");
   progress("associate", 0.1);
+  fit_cad_scale(data, geometry, options.scale);
   result.association = associate_by_tags(mesh, topology, geometry, options.association);
 
   watch.next("place");

@@ -20,7 +20,8 @@ struct CurveOptions {
   bool uniform = false;           // write every cell at orders.max_order (exact elevation)
   Propagation propagation = Propagation::layer;
   LayerFieldOptions layer;
-  TagOptions association;         // --unit, --patch
+  double scale = 0.0;             // --unit: mesh length per CAD length (read as mm); 0: found
+  TagOptions association;         // --patch
   bool allow_invalid = false;     // write even if something is not certified
   bool strict = false;            // faces over the deviation count as failure (exit code 3)
   int threads = 0;                // 0: all

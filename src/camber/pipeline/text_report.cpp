@@ -1,9 +1,10 @@
-#include <camber/pipeline/text_table.hpp>
 #include <camber/pipeline/text_report.hpp>
+#include <camber/pipeline/text_table.hpp>
 #include <camber/pipeline/version.hpp>
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -44,6 +45,20 @@ std::string joined(const std::vector<std::string>& items) {
   std::string out;
   for (const std::string& item : items) out += (out.empty() ? "" : ", ") + item;
   return out;
+}
+
+/// A sentence broken at blanks, set in under its key.
+std::string sentence(const std::string& key, const std::string& text) {
+  std::string out, line = fmt::format("{:<10}", key);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (line.size() + 1 + word.size() > k_line && line.size() > 10) {
+      out.append(line).append("\n");
+      line.assign(10, ' ');
+    }
+    line.append(" ").append(word);
+  }
+  return out.append(line).append("\n");
 }
 
 void add_head(const Report& report, std::string& out) {
@@ -235,7 +250,7 @@ void add_foot(const Report& report, std::string& out) {
     out += wrapped("memory", {fmt::format("{:.0f} MiB at most",
                                           static_cast<double>(report.peak_bytes) / 1048576.0)});
   }
-  for (const std::string& warning : report.warnings) out += fmt::format("warning    {}\n", warning);
+  for (const std::string& warning : report.warnings) out += sentence("warning", warning);
   out += wrapped("result", {report.status});
 }
 

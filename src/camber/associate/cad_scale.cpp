@@ -1,5 +1,5 @@
 #include <camber/base/error.hpp>
-#include <camber/pipeline/cad_scale.hpp>
+#include <camber/associate/cad_scale.hpp>
 
 #include <algorithm>
 #include <array>
