@@ -173,6 +173,15 @@ void link_patch_faces(const LinearMesh& mesh, Topology& topology) {
                       fmt::format("near ({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()),
                       "surface and volume mesh do not belong together: export them from one run");
     }
+    const std::size_t f = at(found->second);
+    const std::span<const Index> walk = used(mesh.patch_face_vertices[b], mesh.patch_face_shape[b]);
+    if (view_of(topology.face_shape[f], walk, topology.face2vertex[f]) == 0xff) {
+      const Vec3& x = mesh.vertices[at(key.v[0])];
+      throw MeshError(fmt::format("a quad of {} walks its corners differently from its cell",
+                                  mesh.entity_name({2, mesh.patch_face_entity[b]})),
+                      fmt::format("near ({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()),
+                      "the surface element is twisted: repair it");
+    }
     topology.patch_face2face[b] = found->second;
     // A face listed twice (two physical groups) keeps its first entity.
     Index& owner = topology.face2patch_face[at(found->second)];

@@ -52,7 +52,8 @@ struct Topology {
   [[nodiscard]] Index find_edge(Index a, Index b) const;
 };
 
-/// @throws MeshError if a face has more than two cells, or a surface element is no face of any cell.
+/// @throws MeshError if a face has more than two cells, a surface element is no face of any cell, or a
+///         quadrilateral's corners are walked differently by those who share it.
 [[nodiscard]] Topology build_topology(const LinearMesh& mesh);
 
 /// The views of a face: view w maps corner i of the viewer to corner face_view(shape, w)[i] of the frame.

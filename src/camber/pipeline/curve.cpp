@@ -10,6 +10,7 @@
 #include <camber/associate/cad_scale.hpp>
 #include <camber/base/parallel.hpp>
 #include <camber/elevate/apply_field.hpp>
+#include <camber/elevate/pinched.hpp>
 #include <camber/elevate/rescue.hpp>
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/summary.hpp>
@@ -92,7 +93,8 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("rescue");
   progress("rescue", 0.8);
-  const LadderResult ladder = climb(*result.curved, placement, field, wall, columns, uncertified);
+  const std::vector<Index> pinched = find_pinched_cells(mesh, topology, result.association, wall);
+  const LadderResult ladder = climb(*result.curved, placement, field, wall, columns, pinched, uncertified);
 
   watch.next("measure");
   progress("measure", 0.9);

@@ -27,9 +27,9 @@ std::vector<Index> feet(const Topology& topology, const Wall& wall, const Column
 }
 
 /// Splits off the cells that moving volume nodes cannot mend: those on a wall face whose first cell is bad (the
-/// wall nodes themselves are misplaced), and everything over such a face.
+/// wall nodes themselves are misplaced), everything over such a face, and pinched cells.
 std::vector<Index> take_wall_faults(const Topology& topology, const Wall& wall, const Columns& columns,
-                                    std::vector<Index>& bad) {
+                                    const std::vector<Index>& pinched, std::vector<Index>& bad) {
   std::vector<std::uint8_t> is_fault(wall.face_count(), 0);
   for (Index c : bad) {
     const Index slot = columns.cell_face_slot[at(c)];
@@ -40,7 +40,8 @@ std::vector<Index> take_wall_faults(const Topology& topology, const Wall& wall, 
   std::vector<Index> faults, others;
   for (Index c : bad) {
     const Index slot = columns.cell_face_slot[at(c)];
-    (slot != k_none && is_fault[at(slot)] ? faults : others).push_back(c);
+    const bool is_pinched = std::binary_search(pinched.begin(), pinched.end(), c);
+    (is_pinched || (slot != k_none && is_fault[at(slot)]) ? faults : others).push_back(c);
   }
   bad = std::move(others);
   return faults;
@@ -71,15 +72,16 @@ std::vector<Index> cells_over(const LinearMesh& mesh, const Topology& topology, 
 }  // namespace
 
 LadderResult climb(CurvedMesh& curved, Placement& placement, const LayerField& field, const Wall& wall,
-                   const Columns& columns, const std::vector<Index>& uncertified) {
+                   const Columns& columns, const std::vector<Index>& pinched, const std::vector<Index>& uncertified) {
   LadderResult result;
   result.uncertified_at_start = uncertified.size();
+  result.pinched = pinched;
   const LinearMesh& mesh = curved.linear();
   const Topology& topology = curved.topology();
   const FixedEntities fixed = boundary_entities(topology);
   std::vector<Index> bad = uncertified;
   for (int pass = 0; pass <= 2 * k_max_order && !bad.empty(); ++pass) {
-    std::vector<Index> to_lower = take_wall_faults(topology, wall, columns, bad);
+    std::vector<Index> to_lower = take_wall_faults(topology, wall, columns, pinched, bad);
     if (to_lower.empty()) {
       const UntangleResult mended = untangle(curved, bad, fixed);
       result.patches_repaired += mended.repaired;

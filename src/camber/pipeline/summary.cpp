@@ -12,7 +12,6 @@
 
 #include <camber/base/parallel.hpp>
 #include <camber/basis/lagrange.hpp>
-#include <camber/elevate/pinched.hpp>
 #include <camber/metric/element_quality.hpp>
 #include <camber/validity/batch.hpp>
 
@@ -277,8 +276,7 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
                  const LadderResult& ladder, Report& report) {
   const LinearMesh& mesh = *result.linear;
   const Topology& topology = *result.topology;
-  const std::vector<Index> pinched = find_pinched_cells(mesh, topology, result.association, wall);
-  report.rescue.pinched = pinched.size();
+  report.rescue.pinched = ladder.pinched.size();
   report.rescue.patches = ladder.patches_repaired;
   report.rescue.orders_lowered = ladder.lowered_faces.size();
   report.rescue.scaled_back = ladder.scaled.scaled_back.size();
@@ -287,7 +285,7 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
     std::string& all = reasons[c];
     all += (all.empty() ? "" : "; ") + reason;
   };
-  for (Index c : pinched) {
+  for (Index c : ladder.pinched) {
     if (result.curved->cell_order(c) > 1) add(c, "three edges of a corner lie on one smooth CAD face");
   }
   for (Index slot : ladder.lowered_faces) {

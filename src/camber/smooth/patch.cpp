@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include <camber/base/parallel.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/basis/quadrature.hpp>
 #include <camber/smooth/distortion.hpp>
@@ -37,14 +38,7 @@ constexpr double k_longest_step = 0.5;
 
 /// Rounds without progress before a group is given up.
 constexpr int k_patience = 3;
-
-struct Sample {
-  Mat3 A0;               // Jacobian from the fixed nodes
-  Mat3 W_inverse;
-  double weight = 0.0;
-  MatX gradient;         // free nodes of the cell x 3: dN/dxi
-};
-
+constexpr std::size_t k_cells_per_task = 16;
 
 /// The free nodes of a group and how the cells around depend on them.
 class Patch {
@@ -145,24 +139,19 @@ class Patch {
   /// Another sample where a certificate failed.
   void add_sample(std::size_t i, const Vec3& xi) { add_samples(data_[i], std::span(&xi, 1), std::array{1.0}); }
 
-  [[nodiscard]] double evaluate(const VecX& x, double delta, VecX& gradient) const {
+  [[nodiscard]] double evaluate(const VecX& x, double delta, VecX& gradient) {
+    parallel_for(data_.size(), k_cells_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) evaluate_cell(data_[i], x, delta);
+    });
+    // Summed in cell order: same bits for any number of threads.
     gradient.setZero(x.size());
     double energy = 0.0;
     for (const CellData& cell : data_) {
-      const Eigen::Index n = static_cast<Eigen::Index>(cell.free.size());
-      MatX local(n, 3);
-      for (Eigen::Index k = 0; k < n; ++k) local.row(k) = x.segment<3>(3 * cell.free[sz(k)]).transpose();
-      MatX slope = MatX::Zero(n, 3);
-      for (const Sample& s : cell.samples) {
-        const Mat3 A = s.A0 + local.transpose() * s.gradient;
-        const Mat3 T = A * s.W_inverse;
-        const Distortion d = distortion(T, delta);
-        if (!std::isfinite(d.energy)) return std::numeric_limits<double>::infinity();
-        energy += s.weight * d.energy;
-        const Mat3 dA = s.weight * d.gradient * s.W_inverse.transpose();
-        slope.noalias() += s.gradient * dA.transpose();
+      if (!std::isfinite(cell.energy)) return std::numeric_limits<double>::infinity();
+      energy += cell.energy;
+      for (Eigen::Index k = 0; k < cell.slope.rows(); ++k) {
+        gradient.segment<3>(3 * cell.free[sz(k)]) += cell.slope.row(k).transpose();
       }
-      for (Eigen::Index k = 0; k < n; ++k) gradient.segment<3>(3 * cell.free[sz(k)]) += slope.row(k).transpose();
     }
     return energy;
   }
@@ -170,12 +159,10 @@ class Patch {
   [[nodiscard]] double least_ratio(const VecX& x) const {
     double least = std::numeric_limits<double>::infinity();
     for (const CellData& cell : data_) {
-      const Eigen::Index n = static_cast<Eigen::Index>(cell.free.size());
-      MatX local(n, 3);
-      for (Eigen::Index k = 0; k < n; ++k) local.row(k) = x.segment<3>(3 * cell.free[sz(k)]).transpose();
-      for (const Sample& s : cell.samples) {
-        const Mat3 A = s.A0 + local.transpose() * s.gradient;
-        least = std::min(least, (A * s.W_inverse).determinant());
+      const MatX J = jacobians(cell, x);
+      for (Eigen::Index s = 0; s < J.rows() / 3; ++s) {
+        const Mat3 T = J.middleRows<3>(3 * s).transpose() * cell.W_inverse[sz(s)];
+        least = std::min(least, T.determinant());
       }
     }
     return least;
@@ -185,10 +172,10 @@ class Patch {
   [[nodiscard]] VecX inverse_diagonal() const {
     VecX diagonal = VecX::Zero(static_cast<Eigen::Index>(3 * free_count_));
     for (const CellData& cell : data_) {
-      for (const Sample& s : cell.samples) {
-        const MatX g = s.gradient * s.W_inverse;
-        for (Eigen::Index k = 0; k < g.rows(); ++k) {
-          diagonal.segment<3>(3 * cell.free[sz(k)]).array() += s.weight * g.row(k).squaredNorm();
+      for (Eigen::Index s = 0; s < cell.basis.rows() / 3; ++s) {
+        const MatX g = cell.W_inverse[sz(s)].transpose() * cell.basis.middleRows<3>(3 * s);
+        for (Eigen::Index k = 0; k < g.cols(); ++k) {
+          diagonal.segment<3>(3 * cell.free[sz(k)]).array() += cell.weight[sz(s)] * g.col(k).squaredNorm();
         }
       }
     }
@@ -197,14 +184,43 @@ class Patch {
 
  private:
   struct CellData {
-    Index cell;
-    Shape shape;
-    int order;
+    Shape shape = Shape::tetrahedron;
+    int order = 1;
     Points base, straight;
     std::vector<Index> free;
     MatX dependence;  // nodes x free
-    std::vector<Sample> samples;
+    // Per sample s: rows 3s..3s+2 hold d/dxi of the free nodes' functions (basis) and of the fixed part of x
+    // (offset); W_inverse of the straight element; weight.
+    MatX basis, offset;
+    std::vector<Mat3> W_inverse;
+    std::vector<double> weight;
+    double energy = 0.0;  // at the last evaluation
+    MatX slope;           // and its derivative by the free nodes
   };
+
+  static void evaluate_cell(CellData& cell, const VecX& x, double delta) {
+    const MatX J = jacobians(cell, x);
+    MatX stress(J.rows(), 3);
+    cell.energy = 0.0;
+    for (Eigen::Index s = 0; s < J.rows() / 3; ++s) {
+      const Mat3& W_inverse = cell.W_inverse[sz(s)];
+      const Mat3 T = J.middleRows<3>(3 * s).transpose() * W_inverse;
+      const Distortion d = distortion(T, delta);
+      cell.energy += cell.weight[sz(s)] * d.energy;
+      stress.middleRows<3>(3 * s) = cell.weight[sz(s)] * W_inverse * d.gradient.transpose();
+    }
+    cell.slope.noalias() = cell.basis.transpose() * stress;
+  }
+
+  /// Transposed Jacobians of all samples, one below the other.
+  [[nodiscard]] static MatX jacobians(const CellData& cell, const VecX& x) {
+    const Eigen::Index n = static_cast<Eigen::Index>(cell.free.size());
+    MatX local(n, 3);
+    for (Eigen::Index k = 0; k < n; ++k) local.row(k) = x.segment<3>(3 * cell.free[sz(k)]).transpose();
+    MatX J = cell.offset;
+    J.noalias() += cell.basis * local;
+    return J;
+  }
 
   template <class Visit>
   void for_each_entity(Visit visit) {
@@ -214,14 +230,17 @@ class Patch {
   }
 
   void add_cell(Index c, const Points& base, const std::vector<std::pair<Index, VecX>>& columns) {
-    CellData cell{c, curved_.linear().cell_shape[at(c)], curved_.cell_order(c), base, {}, {}, {}, {}};
+    CellData cell;
+    cell.shape = curved_.linear().cell_shape[at(c)];
+    cell.order = curved_.cell_order(c);
+    cell.base = base;
     curved_.gather_straight(c, cell.order, cell.straight);
     cell.dependence.resize(static_cast<Eigen::Index>(base.size()), static_cast<Eigen::Index>(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k) {
       cell.free.push_back(columns[k].first);
       cell.dependence.col(static_cast<Eigen::Index>(k)) = columns[k].second;
     }
-    const Quadrature& rule = gauss(cell.shape, 2 * cell.order);
+    const Quadrature& rule = gauss(cell.shape, 2 * cell.order - 1);
     std::vector<double> weight = rule.weights;
     for (double& w : weight) w /= reference_measure(cell.shape);
     add_samples(cell, rule.points, weight);
@@ -231,25 +250,27 @@ class Patch {
     data_.push_back(std::move(cell));
   }
 
-  void add_samples(CellData& cell, std::span<const Vec3> points, std::span<const double> weights) const {
+  static void add_samples(CellData& cell, std::span<const Vec3> points, std::span<const double> weights) {
     std::vector<Vec3> dN(cell.base.size());
+    const Eigen::Index before = cell.offset.rows(), n = cell.dependence.cols();
+    cell.basis.conservativeResize(before + 3 * static_cast<Eigen::Index>(points.size()), n);
+    cell.offset.conservativeResize(cell.basis.rows(), 3);
     for (std::size_t i = 0; i < points.size(); ++i) {
       // The pyramid's map is singular in shape at the apex: sample just below it.
       Vec3 xi = points[i];
       if (cell.shape == Shape::pyramid && xi.z() > 1.0 - 1e-3) xi = Vec3(5e-4, 5e-4, 1.0 - 1e-3);
       lagrange_gradients(cell.shape, cell.order, xi, dN);
-      Sample s;
-      s.A0.setZero();
-      Mat3 W = Mat3::Zero();
-      s.gradient = MatX::Zero(cell.dependence.cols(), 3);
-      for (std::size_t n = 0; n < dN.size(); ++n) {
-        s.A0 += cell.base[n] * dN[n].transpose();
-        W += cell.straight[n] * dN[n].transpose();
-        s.gradient += cell.dependence.row(static_cast<Eigen::Index>(n)).transpose() * dN[n].transpose();
+      const Eigen::Index row = before + 3 * static_cast<Eigen::Index>(i);
+      Mat3 W = Mat3::Zero(), A = Mat3::Zero();
+      cell.basis.middleRows<3>(row).setZero();
+      for (std::size_t k = 0; k < dN.size(); ++k) {
+        A += cell.base[k] * dN[k].transpose();
+        W += cell.straight[k] * dN[k].transpose();
+        cell.basis.middleRows<3>(row) += dN[k] * cell.dependence.row(static_cast<Eigen::Index>(k));
       }
-      s.W_inverse = W.inverse();
-      s.weight = weights[i];
-      cell.samples.push_back(std::move(s));
+      cell.offset.middleRows<3>(row) = A.transpose();
+      cell.W_inverse.push_back(W.inverse());
+      cell.weight.push_back(weights[i]);
     }
   }
 
