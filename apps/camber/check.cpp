@@ -1,6 +1,6 @@
 // camber check: certificates, gaps, quality and surface error of any mesh.
-#include <camber/geom_occ/cad_file.hpp>
 #include <camber/associate/cad_scale.hpp>
+#include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/check.hpp>
 
 #include <chrono>

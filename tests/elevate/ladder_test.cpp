@@ -84,9 +84,7 @@ std::vector<Body> bodies() {
 std::unique_ptr<Case> layered(const Body& body, double first_over_edge, double ratio = 10.0) {
   const double h = mean_edge(body.surface);
   const double total = body.surface.points.front().norm() > 1.5 * k_minor ? 0.6 * k_minor : 1.5 * h;
-  std::vector<double> heights = growing_heights(first_over_edge * h, ratio, 0.3 * total);
-  heights.push_back(0.65 * total);
-  heights.push_back(total);
+  const std::vector<double> heights = growing_heights(first_over_edge * h, ratio, total);
   return make_case(layers_on(body.surface, heights, body.direction, body.options), body.model());
 }
 

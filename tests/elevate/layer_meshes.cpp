@@ -190,9 +190,8 @@ double mean_edge(const SurfaceMesh& surface) {
 
 std::vector<double> growing_heights(double first, double ratio, double total) {
   std::vector<double> heights{0.0};
-  for (double step = first; heights.back() < total; step *= ratio) {
-    heights.push_back(heights.back() + step);
-  }
+  for (double height = first; height < 0.25 * total; height *= ratio) heights.push_back(height);
+  for (double share : {0.35, 0.65, 1.0}) heights.push_back(share * total);
   return heights;
 }
 

@@ -52,7 +52,7 @@ MeshData layers_on(const SurfaceMesh& surface, const std::vector<double>& height
                    const std::function<Vec3(const Vec3&)>& direction,
                    const LayerOptions& options = {});
 
-/// 0, first, first (1 + ratio), ...: up to `total` at least.
+/// 0, first, ratio * first, ... while below a quarter of the total, then three layers up to it.
 std::vector<double> growing_heights(double first, double ratio, double total);
 
 /// Everything between a mesh and its placed wall.

@@ -1,11 +1,11 @@
 // The surface error against the bundled ball, whose exact surface is the unit sphere.
+#include <camber/associate/cad_scale.hpp>
 #include <camber/base/error.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/basis/quadrature.hpp>
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/io/mesh_file.hpp>
 #include <camber/mesh/elevate_data.hpp>
-#include <camber/associate/cad_scale.hpp>
 #include <camber/pipeline/check.hpp>
 
 #include <algorithm>

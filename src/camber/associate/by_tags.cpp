@@ -111,20 +111,21 @@ class TagAssociator {
     return PatchRule::automatic;
   }
 
-  /// A vertex refers to the CAD if its tag exists there and it belongs to a patch on the CAD.
+  /// A vertex refers to the CAD if its tag exists there and it belongs to a patch on the CAD; without a
+  /// classification of its own it refers to a face of that patch.
   void link_vertices() {
-    std::vector<std::uint8_t> on_cad(mesh_.vertices.size(), 0);
+    std::vector<GeomEntity> face_at(mesh_.vertices.size());
     for (Index f = 0; at(f) < topology_.face_count(); ++f) {
       const Patch* patch = result_.patch_of(f);
       if (!patch || patch->group.empty()) continue;
       for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-        on_cad[at(topology_.face2vertex[at(f)][static_cast<std::size_t>(i)])] = 1;
+        face_at[at(topology_.face2vertex[at(f)][static_cast<std::size_t>(i)])] = patch->group.front();
       }
     }
-    result_.vertex2entity.resize(mesh_.vertices.size());
+    result_.vertex2entity = face_at;
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       const EntityKey key = mesh_.vertex_entity[v];
-      if (on_cad[v] && key.dim >= 0 && key.dim <= 2 && key.tag >= 1 && key.tag <= model_.count(key.dim)) {
+      if (face_at[v].dim == 2 && key.dim >= 0 && key.dim <= 2 && key.tag >= 1 && key.tag <= model_.count(key.dim)) {
         result_.vertex2entity[v] = {key.dim, key.tag};
       }
     }

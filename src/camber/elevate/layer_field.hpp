@@ -5,22 +5,20 @@
 #include <vector>
 
 #include <camber/elevate/columns.hpp>
+#include <camber/elevate/decay_length.hpp>
 #include <camber/elevate/face_tree.hpp>
+#include <camber/elevate/motion_constraints.hpp>
 #include <camber/elevate/placement.hpp>
 
 namespace camber {
-
-struct LayerFieldOptions {
-  double reach = 1.0;              // c_L: decay length per surface edge length
-  double reach_per_sagitta = 5.0;  // and at least this many wall displacements
-};
 
 /// u(x) = d(b) phi(z / L): b is the foot of x on the straight wall, z its distance, d the wall's displacement
 /// polynomial there, L = max(c_L h, 5 |d|), phi(s) = (1-s)^2 (1+2s). Near the wall the map is a shear, so
 /// the height of the first cell never enters its validity. The foot is that of the column where there is
 /// one, else the closest point. Where two walls meet in a sharp concave edge their contributions are
 /// blended with weights phi_i / z_i^2, so that u = d on each of them. Near patches that do not move the
-/// normal part dies out; on planes it is exactly zero. All const members may be called by any thread.
+/// normal part dies out; on planes it is exactly zero. With Decay::cell L is the height of the first cell and
+/// phi(s) = 1 - s: the paper's transfer (2.2.4), which inverts cells thinner than the displacement. All const members may be called by any thread.
 class LayerField {
  public:
   LayerField(const LinearMesh& mesh, const Topology& topology, const Association& association,
@@ -34,8 +32,12 @@ class LayerField {
   void cell(Index c, int q, std::span<Vec3> u) const;
 
   /// Snaps a position of an entity on planes back into them (removes rounding).
-  [[nodiscard]] Vec3 constrained_edge_point(Index e, const Vec3& x) const;
-  [[nodiscard]] Vec3 constrained_face_point(Index f, const Vec3& x) const;
+  [[nodiscard]] Vec3 constrained_edge_point(Index e, const Vec3& x) const {
+    return constraints_.edge_point(e, x);
+  }
+  [[nodiscard]] Vec3 constrained_face_point(Index f, const Vec3& x) const {
+    return constraints_.face_point(f, x);
+  }
 
   /// Decay length at a wall vertex (0 off the wall).
   [[nodiscard]] double decay_length(Index vertex) const { return length_[at(vertex)]; }
@@ -47,22 +49,13 @@ class LayerField {
     std::array<Vec3, 8> xi;
     std::array<double, 8> z{}, length{};
   };
-  struct Constraint {
-    enum class Kind : std::uint8_t { free, plane, line, fixed } kind = Kind::free;
-    Vec3 origin = Vec3::Zero(), a = Vec3::Zero();  // plane normal, or direction of the line
-  };
-
-  void find_lengths(const LayerFieldOptions& options);
-  void limit_lengths_in_gaps();
-  void build_trees();
-  void find_constraints();
+  /// Share of the wall's displacement left at s decay lengths.
+  [[nodiscard]] double share(double s) const;
   [[nodiscard]] Foot foot_of(std::span<const Index> vertices, std::array<Index, 2> column_slots) const;
   [[nodiscard]] Vec3 displacement(const Vec3& x, int q, const Foot* foot, std::span<const double> weights) const;
   [[nodiscard]] Vec3 wall_displacement(Index slot, const Vec3& xi, int q) const;
   [[nodiscard]] double wall_length(Index slot, const Vec3& xi) const;
   [[nodiscard]] Vec3 damped_by_still_patches(const Vec3& x, double wall_distance, const Vec3& u) const;
-  static Vec3 constrained(const Constraint& constraint, const Vec3& x);
-  static Vec3 constrained_move(const Constraint& constraint, const Vec3& u);
 
   const LinearMesh& mesh_;
   const Topology& topology_;
@@ -70,17 +63,13 @@ class LayerField {
   const Wall& wall_;
   const Placement& placement_;
   const Columns& columns_;
-  std::vector<double> length_;            // per vertex
-  std::vector<double> face_displacement_;  // per wall face slot: largest |d|
+  Decay decay_;
+  std::vector<double> length_;  // per vertex
   double longest_ = 0.0;
   FaceTree wall_tree_, still_tree_;
   std::vector<Index> still_faces_;
-  int label_count_ = 1;
-  std::vector<Constraint> constraints_;             // shared store
-  std::vector<Index> edge_constraint_, face_constraint_;
+  int label_count_ = 0;
+  MotionConstraints constraints_;
 };
-
-/// phi(s) = (1-s)^2 (1+2s) on [0,1], 0 beyond: 1 and flat at the wall.
-[[nodiscard]] double decay(double s);
 
 }  // namespace camber

@@ -14,18 +14,58 @@ std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 constexpr std::size_t k_grain = 1024;
 
-/// max |E a - b| over rows: distance between the elevated low-order shape and the reference.
-double largest_difference(const MatX& elevate, std::span<const Vec3> low, std::span<const Vec3> high) {
-  double largest = 0.0;
-  for (std::size_t r = 0; r < high.size(); ++r) {
-    Vec3 sum = -high[r];
-    for (std::size_t c = 0; c < low.size(); ++c) {
-      sum += elevate(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) * low[c];
-    }
-    largest = std::max(largest, sum.squaredNorm());
-  }
-  return std::sqrt(largest);
+/// An entity that moves by less than this share of what may be missed can stay straight.
+constexpr double k_still = 0.1;
+
+bool is_still(std::span<const Vec3> u, double allowed) {
+  return std::all_of(u.begin(), u.end(), [&](const Vec3& d) { return d.norm() <= k_still * allowed; });
 }
+
+/// By order p: the lowest order that may stand in for p.
+using StandIn = std::array<std::uint8_t, static_cast<std::size_t>(k_max_order) + 1>;
+
+/// Displacement polynomials of one entity at orders 1..top, all as points on the lattice of order top.
+class Shapes {
+ public:
+  Shapes(Shape shape, int top) : shape_(shape), top_(top), n_(sz(node_count(shape, top))) {
+    points_.assign(n_ * sz(top), Vec3::Zero());
+  }
+  /// u: displacements on the lattice of order q. Order 1 is zero: vertices do not move.
+  void set(int q, std::span<const Vec3> u) {
+    const MatX& elevate = elevation_matrix(shape_, q, top_);
+    for (std::size_t r = 0; r < n_; ++r) {
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t c = 0; c < u.size(); ++c) {
+        sum += elevate(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) * u[c];
+      }
+      points_[sz(q - 1) * n_ + r] = sum;
+    }
+  }
+  /// For every order p the lowest q whose points are within `allowed` of those of p.
+  [[nodiscard]] StandIn stand_in(double allowed) const {
+    StandIn lowest{};
+    for (int p = 1; p <= top_; ++p) {
+      int q = 1;
+      while (q < p && distance(q, p) > allowed) ++q;
+      lowest[sz(p)] = static_cast<std::uint8_t>(q);
+    }
+    return lowest;
+  }
+
+ private:
+  [[nodiscard]] double distance(int a, int b) const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      largest = std::max(largest, (points_[sz(a - 1) * n_ + i] - points_[sz(b - 1) * n_ + i]).norm());
+    }
+    return largest;
+  }
+
+  Shape shape_;
+  int top_;
+  std::size_t n_;
+  Points points_;
+};
 
 /// Full displacement lattice of a face at order q, from the field on its edges and inside.
 void face_lattice(const Topology& topology, const LayerField& field, Index f, int q, std::span<Vec3> u) {
@@ -81,53 +121,99 @@ void request_on_surface(const LinearMesh& mesh, const Topology& topology, const 
   }
 }
 
-void request_in_volume(const Topology& topology, const LayerField& field,
-                       const std::vector<double>& shortest_edge, const OrderOptions& options,
-                       OrderRequests& requests) {
+struct StandIns {
+  std::vector<StandIn> edge, face;
+};
+
+StandIns find_stand_ins(const Topology& topology, const LayerField& field,
+                         const std::vector<double>& shortest_edge, const OrderOptions& options) {
   const int top = options.max_order;
+  const auto allowed = [&](std::span<const Index> cells) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Index c : cells) {
+      if (c != k_none) least = std::min(least, options.volume_deviation * shortest_edge[at(c)]);
+    }
+    return least;
+  };
+  StandIns result{std::vector<StandIn>(topology.edge_count()),
+                   std::vector<StandIn>(topology.face_count())};
   parallel_for(topology.edge_count(), k_grain, [&](std::size_t begin, std::size_t end) {
-    std::array<Vec3, 8> high, low;
+    Shapes shapes(Shape::line, top);
+    std::array<Vec3, 8> u;
     for (std::size_t e = begin; e < end; ++e) {
-      double allowed = std::numeric_limits<double>::infinity();
-      for (Index c : topology.cells_of_edge(static_cast<Index>(e))) {
-        allowed = std::min(allowed, options.volume_deviation * shortest_edge[at(c)]);
+      const double most = allowed(topology.cells_of_edge(static_cast<Index>(e)));
+      result.edge[e].fill(1);
+      for (int q = top; q >= 2; --q) {
+        const std::span<Vec3> line(u.data(), sz(q + 1));
+        line.front() = line.back() = Vec3::Zero();
+        field.edge(static_cast<Index>(e), q, line.subspan(1, sz(q - 1)));
+        if (q == top && is_still(line, most)) break;
+        shapes.set(q, line);
+        if (q == 2) result.edge[e] = shapes.stand_in(most);
       }
-      const std::span<Vec3> reference(high.data(), sz(top + 1));
-      reference.front() = reference.back() = Vec3::Zero();
-      field.edge(static_cast<Index>(e), top, reference.subspan(1, sz(top - 1)));
-      int q = 1;
-      for (; q < top; ++q) {
-        const std::span<Vec3> shape(low.data(), sz(q + 1));
-        shape.front() = shape.back() = Vec3::Zero();
-        if (q > 1) field.edge(static_cast<Index>(e), q, shape.subspan(1, sz(q - 1)));
-        if (largest_difference(elevation_matrix(Shape::line, q, top), shape, reference) <= allowed) break;
-      }
-      requests.edge[e] = std::max(requests.edge[e], static_cast<std::uint8_t>(q));
     }
   });
   parallel_for(topology.face_count(), k_grain, [&](std::size_t begin, std::size_t end) {
-    std::array<Vec3, 49> high, low;
+    Shapes triangle(Shape::triangle, top), quadrilateral(Shape::quadrilateral, top);
+    std::array<Vec3, 49> u;
     for (std::size_t f = begin; f < end; ++f) {
       const Shape shape = topology.face_shape[f];
-      double allowed = std::numeric_limits<double>::infinity();
-      for (Index c : topology.face2cell[f]) {
-        if (c != k_none) allowed = std::min(allowed, options.volume_deviation * shortest_edge[at(c)]);
+      Shapes& shapes = shape == Shape::triangle ? triangle : quadrilateral;
+      const double most = allowed(topology.face2cell[f]);
+      result.face[f].fill(1);
+      for (int q = top; q >= 2; --q) {
+        const std::span<Vec3> lattice(u.data(), sz(node_count(shape, q)));
+        face_lattice(topology, field, static_cast<Index>(f), q, lattice);
+        if (q == top && is_still(lattice, most)) break;
+        shapes.set(q, lattice);
+        if (q == 2) result.face[f] = shapes.stand_in(most);
       }
-      const std::span<Vec3> reference(high.data(), sz(node_count(shape, top)));
-      face_lattice(topology, field, static_cast<Index>(f), top, reference);
-      int q = 1;
-      for (; q < top; ++q) {
-        const std::span<Vec3> lower(low.data(), sz(node_count(shape, q)));
-        if (q == 1) {
-          std::fill(lower.begin(), lower.end(), Vec3::Zero());
-        } else {
-          face_lattice(topology, field, static_cast<Index>(f), q, lower);
-        }
-        if (largest_difference(elevation_matrix(shape, q, top), lower, reference) <= allowed) break;
-      }
-      requests.face[f] = std::max(requests.face[f], static_cast<std::uint8_t>(q));
     }
   });
+  return result;
+}
+
+/// Spreads orders from cell to cell, highest first: an entity of a cell of order p that no lower order may stand
+/// in for asks p of all cells that touch it; face neighbours get p - 1 at least.
+void request_in_volume(const Topology& topology, const StandIns& stand_ins, const OrderOptions& options,
+                       OrderRequests& requests, std::vector<std::uint8_t> cell_order) {
+  std::vector<Index> work;
+  const auto raise = [&](Index c, int q, int p) {
+    if (c == k_none || cell_order[at(c)] >= q) return;
+    cell_order[at(c)] = static_cast<std::uint8_t>(q);
+    if (q == p) work.push_back(c);
+  };
+  for (int p = options.max_order; p > 1; --p) {
+    for (std::size_t c = 0; c < cell_order.size(); ++c) {
+      if (cell_order[c] == p) work.push_back(static_cast<Index>(c));
+    }
+    while (!work.empty()) {
+      const Index c = work.back();
+      work.pop_back();
+      for (Index e : topology.edges_of_cell(c)) {
+        const std::uint8_t q = stand_ins.edge[at(e)][sz(p)];
+        if (requests.edge[at(e)] >= q) continue;
+        requests.edge[at(e)] = q;
+        for (Index other : topology.cells_of_edge(e)) raise(other, q, p);
+      }
+      for (Index f : topology.faces_of_cell(c)) {
+        const std::uint8_t q = std::max(stand_ins.face[at(f)][sz(p)], requests.face[at(f)]);
+        requests.face[at(f)] = q;
+        for (Index other : topology.face2cell[at(f)]) raise(other, std::max<int>(q, p - 1), p);
+      }
+    }
+  }
+}
+
+/// A cell takes the largest order asked by any edge or face it contains.
+std::vector<std::uint8_t> cell_orders(const Topology& topology, const OrderRequests& requests,
+                                      std::size_t cell_count, int least) {
+  std::vector<std::uint8_t> orders(cell_count, static_cast<std::uint8_t>(least));
+  for (Index c = 0; at(c) < cell_count; ++c) {
+    for (Index e : topology.edges_of_cell(c)) orders[at(c)] = std::max(orders[at(c)], requests.edge[at(e)]);
+    for (Index f : topology.faces_of_cell(c)) orders[at(c)] = std::max(orders[at(c)], requests.face[at(f)]);
+  }
+  return orders;
 }
 
 }  // namespace
@@ -180,18 +266,18 @@ OrderRequests request_orders(const LinearMesh& mesh, const Topology& topology, c
     return n;
   };
   requests.by_surface = asking();
-  if (options.max_order > 1) request_in_volume(topology, field, shortest_edge, options, requests);
+  if (options.max_order > 1) {
+    request_in_volume(topology, find_stand_ins(topology, field, shortest_edge, options), options, requests,
+                      cell_orders(topology, requests, mesh.cell_count(), options.min_order));
+  }
   requests.by_volume = asking() - requests.by_surface;
   return requests;
 }
 
 OrderField settle_orders(const LinearMesh& mesh, const Topology& topology, const OrderRequests& requests,
                          const OrderOptions& options) {
-  std::vector<std::uint8_t> orders(mesh.cell_count(), static_cast<std::uint8_t>(options.min_order));
-  for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
-    for (Index e : topology.edges_of_cell(c)) orders[at(c)] = std::max(orders[at(c)], requests.edge[at(e)]);
-    for (Index f : topology.faces_of_cell(c)) orders[at(c)] = std::max(orders[at(c)], requests.face[at(f)]);
-  }
+  std::vector<std::uint8_t> orders =
+      cell_orders(topology, requests, mesh.cell_count(), options.min_order);
   // From the highest order down: a raise never touches a level that is already settled.
   for (int q = options.max_order; q > 2; --q) {
     for (std::size_t f = 0; f < topology.face_count(); ++f) {

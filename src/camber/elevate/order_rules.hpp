@@ -19,8 +19,8 @@ struct OrderOptions {
   double deviation = 0.01;  // threshold as a share of the length (paper: 0.01 to 0.05)
   DeviationLength deviation_length = DeviationLength::face;
   double length = 0.0;
-  /// A lower order may miss the field that is carried through the volume by this share of the shortest
-  /// edge of any cell it touches.
+  /// A neighbour of lower order may miss the field that a cell carries by this share of the shortest edge of any
+  /// cell on what they share.
   double volume_deviation = 0.05;
 };
 
@@ -39,9 +39,10 @@ struct OrderRequests {
 
 /// Surface test (paper 2.2.1): for each wall face the lowest order q whose deviation at the Gauss points is at
 /// most deviation * length (else max_order), and the same for wall edges on their CAD curve; a face asks for
-/// its edges too. Volume test (paper 2.2.3, on edges and faces): the lowest order q at which the polynomial
-/// I_q u of the carried field differs from that of max_order by at most volume_deviation * (shortest edge of
-/// the cells that touch it).
+/// its edges too. Volume test (paper 2.2.3, on edges and faces): where a cell of order p meets one of lower order q,
+/// both carry I_q u on what they share. It must not differ from I_p u, which the higher one would have, by more
+/// than volume_deviation * (shortest edge of the cells that touch it); else the lower cell is raised to the
+/// lowest order that does, and so on outwards. Nothing is asked where no wall is.
 [[nodiscard]] OrderRequests request_orders(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
                                            const Placement& placement, const LayerField& field,
                                            const OrderOptions& options);

@@ -241,6 +241,33 @@ void Placement::copy_edges_to_face(Index slot, int q, std::span<Vec3> moved) con
   }
 }
 
+void Placement::set_edge(Index slot, int q, std::span<const Vec3> nodes) {
+  const std::array<Index, 2>& v = topology_.edge2vertex[at(wall_.edges[at(slot)])];
+  for (int i = 1; i < q; ++i) {
+    const double s = static_cast<double>(i) / q;
+    const Vec3 straight = (1.0 - s) * mesh_.vertices[at(v[0])] + s * mesh_.vertices[at(v[1])];
+    edge_nodes_[sz(q)][at(slot) * sz(q - 1) + sz(i - 1)] = nodes[sz(i - 1)];
+    edge_displacement_[sz(q)][at(slot) * sz(q + 1) + sz(i)] = nodes[sz(i - 1)] - straight;
+  }
+}
+
+void Placement::set_face(Index slot, int q, std::span<const Vec3> nodes) {
+  const Index f = wall_.faces[at(slot)];
+  const Shape shape = topology_.face_shape[at(f)];
+  const std::size_t n = sz(topology_.corners_of_face(f));
+  std::array<Vec3, 4> corner;
+  for (std::size_t i = 0; i < n; ++i) corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
+  const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
+  const std::span<Vec3> moved{face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
+                              straight.size()};
+  copy_edges_to_face(slot, q, moved);
+  const std::span<const int> inner = interior_nodes(shape, q);
+  for (std::size_t k = 0; k < inner.size(); ++k) {
+    face_nodes_[sz(q)][at(face_node_offset_[sz(q)][at(slot)]) + k] = nodes[k];
+    moved[sz(inner[k])] = nodes[k] - straight[sz(inner[k])];
+  }
+}
+
 void Placement::place_face(Projector& projector, Index slot) {
   const Index f = wall_.faces[at(slot)];
   const Shape shape = topology_.face_shape[at(f)];

@@ -35,6 +35,11 @@ class Placement {
   [[nodiscard]] std::span<const Vec3> edge_displacement(Index slot, int q) const;
   [[nodiscard]] std::span<const Vec3> face_displacement(Index slot, int q) const;
 
+  /// Replaces the own nodes of an edge or face at order q (they must lie on the CAD). After edges were changed
+  /// the faces on them must be set too, or their displacement keeps the old edge.
+  void set_edge(Index slot, int q, std::span<const Vec3> nodes);
+  void set_face(Index slot, int q, std::span<const Vec3> nodes);
+
   /// Caps the order of shape of some faces (slots): above its cap a face's nodes are those of the cap's
   /// polynomial, elevated. Caps only fall. Their edges inside a patch follow; edges on CAD curves only when the cap reaches 1
   /// (straight). Faces that share a changed edge are placed again.

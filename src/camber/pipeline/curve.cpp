@@ -74,7 +74,9 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   watch.next("elevate");
   progress("elevate", 0.4);
   const Columns columns = find_columns(mesh, topology, wall);
-  const LayerField field(mesh, topology, result.association, wall, placement, columns, options.layer);
+  LayerFieldOptions layer = options.layer;
+  if (options.propagation == Propagation::cell) layer.decay = Decay::cell;
+  const LayerField field(mesh, topology, result.association, wall, placement, columns, layer);
   const OrderRequests requests = request_orders(mesh, topology, wall, placement, field, options.orders);
   OrderField orders = settle_orders(mesh, topology, requests, options.orders);
 
@@ -94,7 +96,7 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   watch.next("rescue");
   progress("rescue", 0.8);
   const std::vector<Index> pinched = find_pinched_cells(mesh, topology, result.association, wall);
-  const LadderResult ladder = climb(*result.curved, placement, field, wall, columns, pinched, uncertified);
+  const LadderResult ladder = climb(*result.curved, result.association, geometry, placement, field, wall, columns, pinched, uncertified);
 
   watch.next("measure");
   progress("measure", 0.9);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <camber/elevate/apply_field.hpp>
+#include <camber/pipeline/wall_repair.hpp>
 
 namespace camber {
 namespace {
@@ -12,15 +13,33 @@ void make_unique(std::vector<Index>& items) {
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
-/// Wall faces that the cells stand on: the foot of their column, or their own faces on the wall.
-std::vector<Index> feet(const Topology& topology, const Wall& wall, const Columns& columns,
+/// Wall faces that the cells stand on: the foot of their column or their own faces on the wall; for a cell
+/// without either, the wall faces at the feet of its vertices.
+std::vector<Index> feet(const LinearMesh& mesh, const Topology& topology, const Wall& wall, const Columns& columns,
                         const std::vector<Index>& cells) {
   std::vector<Index> slots;
+  std::vector<std::uint8_t> is_foot(mesh.vertices.size(), 0);
+  bool has_loose = false;
   for (Index c : cells) {
+    const std::size_t before = slots.size();
     if (columns.cell_face_slot[at(c)] != k_none) slots.push_back(columns.cell_face_slot[at(c)]);
     for (Index f : topology.faces_of_cell(c)) {
       if (wall.face_slot[at(f)] != k_none) slots.push_back(wall.face_slot[at(f)]);
     }
+    if (slots.size() > before) continue;
+    for (Index v : mesh.cell(c)) {
+      if (columns.base[at(v)] == k_none) continue;
+      is_foot[at(columns.base[at(v)])] = 1;
+      has_loose = true;
+    }
+  }
+  for (std::size_t s = 0; has_loose && s < wall.face_count(); ++s) {
+    const Index f = wall.faces[s];
+    int standing = 0;
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      standing += is_foot[at(topology.face2vertex[at(f)][static_cast<std::size_t>(i)])];
+    }
+    if (standing >= 2) slots.push_back(static_cast<Index>(s));
   }
   make_unique(slots);
   return slots;
@@ -71,7 +90,8 @@ std::vector<Index> cells_over(const LinearMesh& mesh, const Topology& topology, 
 
 }  // namespace
 
-LadderResult climb(CurvedMesh& curved, Placement& placement, const LayerField& field, const Wall& wall,
+LadderResult climb(CurvedMesh& curved, const Association& association, const GeometryModel& model,
+                   Placement& placement, const LayerField& field, const Wall& wall,
                    const Columns& columns, const std::vector<Index>& pinched, const std::vector<Index>& uncertified) {
   LadderResult result;
   result.uncertified_at_start = uncertified.size();
@@ -79,6 +99,7 @@ LadderResult climb(CurvedMesh& curved, Placement& placement, const LayerField& f
   const LinearMesh& mesh = curved.linear();
   const Topology& topology = curved.topology();
   const FixedEntities fixed = boundary_entities(topology);
+  std::vector<std::uint8_t> is_smoothed(wall.face_count(), 0);
   std::vector<Index> bad = uncertified;
   for (int pass = 0; pass <= 2 * k_max_order && !bad.empty(); ++pass) {
     std::vector<Index> to_lower = take_wall_faults(topology, wall, columns, pinched, bad);
@@ -88,14 +109,25 @@ LadderResult climb(CurvedMesh& curved, Placement& placement, const LayerField& f
       bad = mended.still_bad;
       to_lower = bad;
     }
-    const std::vector<Index> slots = feet(topology, wall, columns, to_lower);
+    const std::vector<Index> slots = feet(mesh, topology, wall, columns, to_lower);
     std::vector<std::pair<Index, int>> caps;
+    std::vector<Index> to_smooth;
     for (Index slot : slots) {
+      if (!is_smoothed[at(slot)]) to_smooth.push_back(slot);
+      is_smoothed[at(slot)] = 1;
+    }
+    std::vector<Index> changed =
+        smooth_wall_faces(mesh, topology, association, model, wall, placement, to_smooth);
+    result.wall_faces_smoothed += changed.size();
+    for (Index slot : slots) {
+      if (std::binary_search(changed.begin(), changed.end(), slot)) continue;
       caps.emplace_back(slot, std::min(placement.face_cap(slot), curved.face_order(wall.faces[at(slot)])) - 1);
     }
-    const std::vector<Index> changed = placement.lower(caps);
+    const std::vector<Index> lowered = placement.lower(caps);
+    changed.insert(changed.end(), lowered.begin(), lowered.end());
+    make_unique(changed);
     if (changed.empty()) break;
-    result.lowered_faces.insert(result.lowered_faces.end(), slots.begin(), slots.end());
+    for (const auto& [slot, cap] : caps) result.lowered_faces.push_back(slot);
     std::vector<Index> again = cells_over(mesh, topology, wall, columns, changed);
     apply_field(field, curved, again);
     again.insert(again.end(), bad.begin(), bad.end());

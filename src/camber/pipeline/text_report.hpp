@@ -1,7 +1,7 @@
 #pragma once
-#include <string>
-
 #include <camber/pipeline/report.hpp>
+
+#include <string>
 
 namespace camber {
 

@@ -17,7 +17,9 @@ Mat3 cofactor(const Mat3& T) {
 }  // namespace
 
 double regularised_determinant(double tau, double delta) {
-  return 0.5 * (tau + std::sqrt(tau * tau + 4.0 * delta * delta));
+  const double root = std::sqrt(tau * tau + 4.0 * delta * delta);
+  // The same number without the cancellation of root and tau.
+  return tau < 0.0 ? 2.0 * delta * delta / (root - tau) : 0.5 * (tau + root);
 }
 
 Distortion distortion(const Mat3& T, double delta) {

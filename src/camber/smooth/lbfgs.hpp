@@ -14,7 +14,7 @@ struct LbfgsOptions {
 };
 
 /// Minimises f from x (changed in place). `inverse_diagonal` is the initial inverse Hessian (one entry a
-/// variable, > 0). Armijo line search by halving; stops when it fails or `is_done(x)` says so.
+/// variable, > 0). Weak Wolfe line search; stops when it fails or `is_done(x)` says so.
 /// @param f  returns the value and fills the gradient; +inf where undefined (then the gradient is ignored)
 /// @return iterations made. Source: Nocedal 1980, doi 10.1090/S0025-5718-1980-0572855-7.
 int minimise_lbfgs(const std::function<double(const VecX& x, VecX& gradient)>& f, VecX& x,

@@ -1,0 +1,121 @@
+#include <camber/elevate/decay_length.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <camber/base/parallel.hpp>
+
+namespace camber {
+namespace {
+
+/// The decay must end before the middle between two facing walls.
+constexpr double k_gap_share = 0.9;
+
+/// Calls visit(vertex, slot) for every corner of every wall face.
+template <class Visit>
+void for_each_corner(const Topology& topology, const Wall& wall, const Visit& visit) {
+  for (std::size_t s = 0; s < wall.face_count(); ++s) {
+    const Index f = wall.faces[s];
+    for (int i = 0; i < topology.corners_of_face(f); ++i) {
+      visit(topology.face2vertex[at(f)][static_cast<std::size_t>(i)], s);
+    }
+  }
+}
+
+std::vector<double> mean_wall_edges(const LinearMesh& mesh, const Topology& topology,
+                                    const Wall& wall) {
+  std::vector<double> mean(mesh.vertices.size(), 0.0);
+  std::vector<int> count(mesh.vertices.size(), 0);
+  for (Index e : wall.edges) {
+    const std::array<Index, 2>& v = topology.edge2vertex[at(e)];
+    const double length = (mesh.vertices[at(v[0])] - mesh.vertices[at(v[1])]).norm();
+    for (Index i : v) {
+      mean[at(i)] += length;
+      ++count[at(i)];
+    }
+  }
+  for (std::size_t v = 0; v < mean.size(); ++v) {
+    if (count[v] > 0) mean[v] /= count[v];
+  }
+  return mean;
+}
+
+/// Height over the face of the vertex farthest from it, over the cells on the face.
+double cell_height(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
+                   std::size_t slot) {
+  const Index f = wall.faces[slot];
+  const Vec3& foot = mesh.vertices[at(topology.face2vertex[at(f)][0])];
+  double height = 0.0;
+  for (Index v : mesh.cell(topology.face2cell[at(f)][0])) {
+    height = std::max(height, (foot - mesh.vertices[at(v)]).dot(wall.facet_normal[slot]));
+  }
+  return height;
+}
+
+std::vector<double> lengths_over_cells(const LinearMesh& mesh, const Topology& topology,
+                                       const Wall& wall) {
+  constexpr double k_unset = std::numeric_limits<double>::infinity();
+  std::vector<double> length(mesh.vertices.size(), k_unset), height(wall.face_count());
+  for (std::size_t s = 0; s < wall.face_count(); ++s) height[s] = cell_height(mesh, topology, wall, s);
+  for_each_corner(topology, wall, [&](Index v, std::size_t s) {
+    length[at(v)] = std::min(length[at(v)], height[s]);
+  });
+  std::replace(length.begin(), length.end(), k_unset, 0.0);
+  return length;
+}
+
+}  // namespace
+
+double decay(double s) {
+  if (s >= 1.0) return 0.0;
+  if (s <= 0.0) return 1.0;
+  return (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
+}
+
+std::vector<double> decay_lengths(const LinearMesh& mesh, const Topology& topology,
+                                  const Wall& wall, const Placement& placement,
+                                  const LayerFieldOptions& options) {
+  if (options.decay == Decay::cell) return lengths_over_cells(mesh, topology, wall);
+  const int q = placement.max_order();
+  std::vector<double> displacement(wall.face_count(), 0.0), largest(mesh.vertices.size(), 0.0);
+  for (std::size_t s = 0; s < wall.face_count() && q >= 2; ++s) {
+    for (const Vec3& d : placement.face_displacement(static_cast<Index>(s), q)) {
+      displacement[s] = std::max(displacement[s], d.norm());
+    }
+  }
+  for_each_corner(topology, wall, [&](Index v, std::size_t s) {
+    largest[at(v)] = std::max(largest[at(v)], displacement[s]);
+  });
+  std::vector<double> length = mean_wall_edges(mesh, topology, wall);
+  for (std::size_t v = 0; v < length.size(); ++v) {
+    length[v] = std::max(options.reach * length[v], options.reach_per_sagitta * largest[v]);
+  }
+  return length;
+}
+
+void limit_lengths_in_gaps(const LinearMesh& mesh, const Wall& wall, const FaceTree& wall_tree,
+                           std::vector<double>& length) {
+  std::vector<Vec3> inward(mesh.vertices.size(), Vec3::Zero());
+  for (const WallCorner& corner : wall.corners) inward[at(corner.vertex)] -= corner.normal;
+  parallel_for(mesh.vertices.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (length[v] == 0.0 || inward[v].norm() == 0.0) continue;
+      const Vec3 n = inward[v].normalized();
+      const Vec3& x = mesh.vertices[v];
+      double radius = length[v] / k_gap_share;
+      for (int pass = 0; pass < 20; ++pass) {
+        FaceHit hit;
+        if (!wall_tree.nearest(x + radius * n, radius * (1.0 - 1e-6), hit)) break;
+        const Vec3 chord = hit.point - x;
+        if (wall.facet_normal[at(hit.item)].dot(n) < 0.3 || chord.dot(n) <= 0.0) break;
+        const double smaller = chord.squaredNorm() / (2.0 * chord.dot(n));
+        if (smaller >= radius * (1.0 - 1e-6)) break;
+        radius = smaller;
+      }
+      length[v] = std::min(length[v], k_gap_share * radius);
+    }
+  });
+}
+
+}  // namespace camber
