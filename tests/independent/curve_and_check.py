@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Curves a bundled case with the camber program and judges the file with Gmsh, which knows nothing of Camber.
 
-usage: curve_and_check.py CAMBER CASE_FOLDER ORDER OUT.msh VOLUME TOLERANCE
+usage: curve_and_check.py CAMBER CASE_FOLDER ORDER DEVIATION OUT.msh VOLUME TOLERANCE
 
 Checked: every Jacobian determinant at Gmsh's own Gauss points is positive; the cells' volumes add up to VOLUME
 within the relative TOLERANCE; every node of a CAD face is as near to it as the report says; orders above 1 occur.
@@ -114,11 +114,11 @@ def largest_distance(cad):
 
 
 def main():
-    camber, case, order, out, volume, tolerance = sys.argv[1:]
+    camber, case, order, deviation, out, volume, tolerance = sys.argv[1:]
     cad = str(pathlib.Path(case) / "body.step")
     report = pathlib.Path(out).with_suffix(".json")
     subprocess.run([camber, "curve", str(pathlib.Path(case) / "linear.msh"), "--geometry", cad, "--order", order,
-                    "-o", out, "--json", str(report)], check=True)
+                    "--deviation", deviation, "-o", out, "--json", str(report)], check=True)
     faults = []
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)

@@ -147,7 +147,7 @@ TEST(CurvedMesh, HasNoGapBetweenNeighboursOfAnyOrderInAnyView) {
     }
   }
 
-  EXPECT_LE(worst, 2e-14);
+  EXPECT_LE(worst, 1e-14);
   // One side walks the face forwards, the other backwards: 2 x 3 x 3 and 2 x 4 x 4 pairs.
   EXPECT_EQ(views.size(), 18u + 32u);
 }

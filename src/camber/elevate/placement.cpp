@@ -60,6 +60,41 @@ std::optional<std::array<double, 2>> stretch_on_curve(Projector& projector, cons
   return best;
 }
 
+Vec3 direction_at(Shape shape, std::span<const Vec3> normal, const Vec3& xi) {
+  std::array<double, 4> weight{};
+  corner_weights(shape, xi, weight);
+  Vec3 direction = Vec3::Zero();
+  for (std::size_t i = 0; i < normal.size(); ++i) direction += weight[i] * normal[i];
+  return direction;
+}
+
+/// How far the nodes of order q slide along the wall before they are moved across it: what the edges slid (on
+/// CAD curves, in planes), carried inside. Only what order q adds to `lower`, the slide at order q - 1, is
+/// blended: blending is not polynomial, and all of it at once would cost an order of convergence.
+/// @param moved  displacements on the lattice of order q; those of the edges are read
+Points slid_inwards(Shape shape, int q, std::span<const Vec3> normal, const Points& lower,
+                    std::span<const Vec3> moved) {
+  Points below(moved.size(), Vec3::Zero()), added(moved.size(), Vec3::Zero());
+  if (!lower.empty()) {
+    const MatX& elevate = elevation_matrix(shape, q - 1, q);
+    for (std::size_t r = 0; r < below.size(); ++r) {
+      for (std::size_t c = 0; c < lower.size(); ++c) {
+        below[r] += elevate(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) * lower[c];
+      }
+    }
+  }
+  for (const std::vector<int>& edge : lattice_map(shape, q).edge_interior) {
+    for (int node : edge) {
+      const Vec3 across = direction_at(shape, normal, lattice_xi(shape, q)[sz(node)]).normalized();
+      const Vec3& u = moved[sz(node)];
+      added[sz(node)] = u - u.dot(across) * across - below[sz(node)];
+    }
+  }
+  blend_face_interior(shape, q, added);
+  for (std::size_t i = 0; i < below.size(); ++i) below[i] += added[i];
+  return below;
+}
+
 }  // namespace
 
 Deviation measure_face(Projector& projector, const GeometryGroup& group, Shape shape, int q,
@@ -281,7 +316,10 @@ void Placement::place_face(Projector& projector, Index slot) {
     wall_corner[i] = &wall_.corners[at(wall_.face_corners[at(slot)][i])];
   }
   for (std::size_t i = 0; i < n; ++i) longest = std::max(longest, (corner[i] - corner[(i + 1) % n]).norm());
+  std::array<Vec3, 4> normal;
+  for (std::size_t i = 0; i < n; ++i) normal[i] = wall_corner[i]->normal;
 
+  Points slide;  // of the order before
   for (int q = 2; q <= max_order_; ++q) {
     const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
     const std::span<Vec3> moved{face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
@@ -289,16 +327,12 @@ void Placement::place_face(Projector& projector, Index slot) {
     const std::span<Vec3> nodes{face_nodes_[sz(q)].data() + face_node_offset_[sz(q)][at(slot)],
                                 interior_nodes(shape, q).size()};
     copy_edges_to_face(slot, q, moved);
-    blend_face_interior(shape, q, moved);
+    slide = slid_inwards(shape, q, std::span(normal.data(), n), slide, moved);
     std::size_t k = 0;
     for (int node : interior_nodes(shape, q)) {
-      const Vec3& xi = lattice_xi(shape, q)[sz(node)];
-      std::array<double, 4> weight{};
-      corner_weights(shape, xi, weight);
-      Vec3 direction = Vec3::Zero();
-      for (std::size_t i = 0; i < n; ++i) direction += weight[i] * wall_corner[i]->normal;
+      const Vec3 direction = direction_at(shape, std::span(normal.data(), n), lattice_xi(shape, q)[sz(node)]);
       bool is_placed = false;
-      const Vec3 start = straight[sz(node)] + moved[sz(node)];
+      const Vec3 start = straight[sz(node)] + slide[sz(node)];
       const Vec3 x = onto_patch(projector, patch, start, direction, k_reach * longest, wall_corner[0], is_placed);
       if (!is_placed) face_unplaced_[at(slot)] = 1;
       nodes[k++] = x;

@@ -20,7 +20,7 @@ struct Deviation {
 /// Wall nodes at orders 2..max_order. Edge nodes: on their CAD curve, evenly in arc length; else where the
 /// line through the straight node along the interpolated corner normals meets the patch's CAD (closest point as
 /// fallback; inside the plane where the edge borders a planar patch without CAD). Face nodes: the same,
-/// from the straight node moved by what its edges moved. (numerics: directional projection keeps faces that
+/// from the straight node moved by what its edges slid along the wall. (numerics: directional projection keeps faces that
 /// turn by 90 degrees valid where closest points fold.)
 class Placement {
  public:

@@ -21,7 +21,7 @@ class Reducer {
     halvings_[2].assign(curved.linear().cell_count(), 0);
   }
 
-  /// Reduces all entities of the cells once; returns the cells that touch any of them.
+  /// Reduces all entities of the cells once; returns the cells that touch any that changed.
   std::vector<Index> reduce(const std::vector<Index>& cells) {
     std::vector<Index> edges, faces;
     for (Index c : cells) {
@@ -30,18 +30,20 @@ class Reducer {
     }
     make_unique(edges);
     make_unique(faces);
-    std::vector<Index> touched = cells;
+    std::vector<Index> touched;
     for (Index e : edges) {
-      halve(halvings_[0][at(e)], curved_.edge_nodes(e), straight_.edge_nodes(e));
+      if (!halve(halvings_[0][at(e)], curved_.edge_nodes(e), straight_.edge_nodes(e))) continue;
       for (Index c : topology_.cells_of_edge(e)) touched.push_back(c);
     }
     for (Index f : faces) {
-      halve(halvings_[1][at(f)], curved_.face_nodes(f), straight_.face_nodes(f));
+      if (!halve(halvings_[1][at(f)], curved_.face_nodes(f), straight_.face_nodes(f))) continue;
       for (Index c : topology_.face2cell[at(f)]) {
         if (c != k_none) touched.push_back(c);
       }
     }
-    for (Index c : cells) halve(halvings_[2][at(c)], curved_.cell_nodes(c), straight_.cell_nodes(c));
+    for (Index c : cells) {
+      if (halve(halvings_[2][at(c)], curved_.cell_nodes(c), straight_.cell_nodes(c))) touched.push_back(c);
+    }
     make_unique(touched);
     return touched;
   }
@@ -56,12 +58,14 @@ class Reducer {
     std::sort(items.begin(), items.end());
     items.erase(std::unique(items.begin(), items.end()), items.end());
   }
-  static void halve(std::uint8_t& count, std::span<Vec3> x, std::span<const Vec3> straight) {
-    if (count > k_halvings) return;
+  /// False if the entity is straight already.
+  static bool halve(std::uint8_t& count, std::span<Vec3> x, std::span<const Vec3> straight) {
+    if (count > k_halvings) return false;
     ++count;
     for (std::size_t i = 0; i < x.size(); ++i) {
       x[i] = count > k_halvings ? straight[i] : Vec3(straight[i] + 0.5 * (x[i] - straight[i]));
     }
+    return true;
   }
 
   CurvedMesh& curved_;
@@ -96,7 +100,8 @@ RescueResult scale_back(CurvedMesh& curved, const std::vector<Index>& uncertifie
   if (uncertified.empty()) return result;
   Reducer reducer(curved);
   std::vector<Index> bad = uncertified, all = uncertified;
-  while (!bad.empty() && result.passes < 8 * (k_halvings + 2)) {
+  // Ends: every pass reduces entities of all bad cells, which no entity allows for ever.
+  while (!bad.empty()) {
     ++result.passes;
     bad = uncertified_cells(curved, reducer.reduce(bad));
     all.insert(all.end(), bad.begin(), bad.end());

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-
+#include <fmt/format.h>
 
 #include <camber/associate/cad_scale.hpp>
-#include <camber/base/parallel.hpp>
+#include <camber/base/error.hpp>
 #include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/pinched.hpp>
 #include <camber/elevate/rescue.hpp>
@@ -48,10 +48,26 @@ class Stopwatch {
   std::vector<std::pair<std::string, double>> stages_;
 };
 
+void refuse_bad_orders(const OrderOptions& orders) {
+  if (orders.min_order < 1 || orders.max_order > k_max_order || orders.min_order > orders.max_order) {
+    throw OptionError(fmt::format("orders from {} to {} are not possible", orders.min_order, orders.max_order),
+                      "--order, --min-order", fmt::format("choose 1 <= lowest <= highest <= {}", k_max_order));
+  }
+  if (!(orders.deviation > 0.0)) {
+    throw OptionError(fmt::format("a deviation of {:g} cannot be reached", orders.deviation), "--deviation",
+                      "give a positive share of the length, 0.01 to 0.05 as a rule");
+  }
+  if (orders.deviation_length == DeviationLength::given && !(orders.length > 0.0)) {
+    throw OptionError(fmt::format("the deviation cannot be measured against a length of {:g}", orders.length),
+                      "--deviation-length", "give a positive length in the unit of the mesh");
+  }
+}
+
 }  // namespace
 
 CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
                   const Progress& progress) {
+  refuse_bad_orders(options.orders);
   CurveResult result;
   Stopwatch watch;
   watch.next("topology");

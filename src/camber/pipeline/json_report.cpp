@@ -105,6 +105,7 @@ Json rescue(const Report& report) {
   }
   return {{"load_steps", report.rescue.load_steps},
           {"patches", report.rescue.patches},
+          {"faces_smoothed", report.rescue.faces_smoothed},
           {"orders_lowered", report.rescue.orders_lowered},
           {"scaled_back", report.rescue.scaled_back},
           {"pinched", report.rescue.pinched},

@@ -100,11 +100,13 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
   const Topology& topology = curved.topology();
   const FixedEntities fixed = boundary_entities(topology);
   std::vector<std::uint8_t> is_smoothed(wall.face_count(), 0);
+  UntangleOptions effort;
   std::vector<Index> bad = uncertified;
   for (int pass = 0; pass <= 2 * k_max_order && !bad.empty(); ++pass) {
     std::vector<Index> to_lower = take_wall_faults(topology, wall, columns, pinched, bad);
     if (to_lower.empty()) {
-      const UntangleResult mended = untangle(curved, bad, fixed);
+      const UntangleResult mended = untangle(curved, bad, fixed, effort);
+      effort.evaluations -= std::min(effort.evaluations, mended.evaluations);
       result.patches_repaired += mended.repaired;
       bad = mended.still_bad;
       to_lower = bad;

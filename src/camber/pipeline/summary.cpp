@@ -278,6 +278,7 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
   const Topology& topology = *result.topology;
   report.rescue.pinched = ladder.pinched.size();
   report.rescue.patches = ladder.patches_repaired;
+  report.rescue.faces_smoothed = ladder.wall_faces_smoothed;
   report.rescue.orders_lowered = ladder.lowered_faces.size();
   report.rescue.scaled_back = ladder.scaled.scaled_back.size();
   std::map<Index, std::string> reasons;  // by cell

@@ -295,7 +295,8 @@ std::vector<std::pair<std::size_t, Vec3>> failing_cells(const CurvedMesh& curved
 }
 
 /// Optimises from the nodes as they are; true if all cells came out certified, else the nodes are put back.
-bool repair(CurvedMesh& curved, Patch& patch, const UntangleOptions& options) {
+/// @param allowance  evaluations of one cell that may still be spent; reduced by those made
+bool repair(CurvedMesh& curved, Patch& patch, const UntangleOptions& options, std::size_t& allowance) {
   const VecX start = patch.positions();
   VecX x = start;
   const VecX scale = patch.inverse_diagonal();
@@ -304,11 +305,15 @@ bool repair(CurvedMesh& curved, Patch& patch, const UntangleOptions& options) {
   lbfgs.longest_step = k_longest_step;
   double least = patch.least_ratio(x), best = least;
   int since_best = 0;
-  for (int round = 0; round < options.max_rounds && since_best < k_patience; ++round) {
+  for (int round = 0; round < options.max_rounds && since_best < k_patience && allowance > 0; ++round) {
     // Wide at first, so that inverted samples see a slope; narrower each round, to push them through zero.
     const double delta =
         least > 0.0 ? 0.0 : std::max(k_least_delta, 0.3 * std::abs(least)) * std::pow(k_delta_shrink, round);
-    minimise_lbfgs([&](const VecX& y, VecX& g) { return patch.evaluate(y, delta, g); }, x, scale, lbfgs);
+    const auto energy = [&](const VecX& y, VecX& g) {
+      allowance -= std::min(allowance, patch.cells().size());
+      return patch.evaluate(y, delta, g);
+    };
+    minimise_lbfgs(energy, x, scale, lbfgs, [&](const VecX&) { return allowance == 0; });
     least = patch.least_ratio(x);
     since_best = least > best + 0.05 * std::abs(best) ? 0 : since_best + 1;
     best = std::max(best, least);
@@ -398,20 +403,24 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
     ++result.patches;
     bool is_repaired = false;
     std::vector<Index> core = group;
-    for (int ring = 0; ring < options.rings && !is_repaired; ++ring) {
+    const std::size_t granted =
+        std::min(options.evaluations_per_group, options.evaluations - std::min(options.evaluations, result.evaluations));
+    std::size_t allowance = granted;
+    for (int ring = 0; ring < options.rings && !is_repaired && allowance > 0; ++ring) {
       core = neighbours(curved.topology(), core);
       Patch patch(curved, core, fixed);
       if (patch.free_count() == 0 || patch.cells().size() > options.max_cells) break;
       patch.build();
-      is_repaired = repair(curved, patch, options);
+      is_repaired = repair(curved, patch, options, allowance);
       if (is_repaired) break;
       // A second start: the bad cells themselves straight. Flat cells tolerate little else.
       const VecX carried = patch.positions();
       if (!straight) straight.emplace(curved.linear(), curved.topology(), curved.orders());
       straighten(curved, *straight, group, fixed);
-      is_repaired = repair(curved, patch, options);
+      is_repaired = repair(curved, patch, options, allowance);
       if (!is_repaired) patch.set_positions(carried);
     }
+    result.evaluations += granted - allowance;
     if (is_repaired) {
       ++result.repaired;
     } else {

@@ -19,11 +19,14 @@ struct UntangleOptions {
   int max_rounds = 12;        // of regularisation
   int iterations_per_round = 40;
   std::size_t max_cells = 4000;  // a larger patch is left alone
+  // Work limits, counted in evaluations of one cell: for one group, and for all groups of a call.
+  std::size_t evaluations_per_group = 100000, evaluations = 500000;
 };
 
 struct UntangleResult {
   std::size_t patches = 0, repaired = 0;  // connected groups tried, and certified afterwards
   std::vector<Index> still_bad;           // cells of groups that were put back as they were
+  std::size_t evaluations = 0;            // of one cell, spent
 };
 
 /// For each connected group of uncertified cells: minimises the distortion energy over the free nodes of the

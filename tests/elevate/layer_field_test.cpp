@@ -1,0 +1,287 @@
+#include <camber/elevate/apply_field.hpp>
+#include <camber/elevate/rescue.hpp>
+#include <camber/geom/analytic_model.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "layer_meshes.hpp"
+
+namespace camber {
+namespace {
+
+using namespace testing;
+
+Vec3 outwards(const Vec3& x) { return x.normalized(); }
+
+std::unique_ptr<Case> sphere(const SurfaceMesh& surface, double first,
+                             LayerFilling filling = LayerFilling::stacked) {
+  LayerOptions options;
+  options.filling = filling;
+  return make_case(layers_on(surface, {0.0, first, 0.3, 0.8}, outwards, options),
+                   make_sphere(Vec3::Zero(), 1.0));
+}
+
+/// Vertices of an edge one layer up.
+Index edge_above(const Case& c, Index e, Index step) {
+  const std::array<Index, 2>& v = c.topology.edge2vertex[at(e)];
+  return c.topology.find_edge(v[0] + step, v[1] + step);
+}
+
+TEST(Decay, IsOneAndFlatAtTheWallAndEndsFlat) {
+  EXPECT_DOUBLE_EQ(decay(0.0), 1.0);
+  EXPECT_DOUBLE_EQ(decay(0.5), 0.5);
+  EXPECT_DOUBLE_EQ(decay(1.0), 0.0);
+  EXPECT_DOUBLE_EQ(decay(7.0), 0.0);
+  EXPECT_DOUBLE_EQ(decay(-1.0), 1.0);
+  const double step = 1e-5;
+  for (double s : {0.0, 0.3, 0.7, 1.0}) {
+    const double slope = (decay(s + step) - decay(s - step)) / (2.0 * step);
+    EXPECT_NEAR(slope, -6.0 * s * (1.0 - s), 1e-4);
+  }
+}
+
+TEST(LayerField, IsTheWallsDisplacementOnTheWall) {
+  const auto c = sphere(icosphere(1), 1e-3);
+  const LayerField field = c->field();
+  for (int q = 2; q <= 4; ++q) {
+    Points u(static_cast<std::size_t>(q - 1));
+    for (Index slot = 0; at(slot) < c->wall.edge_count(); ++slot) {
+      field.edge(c->wall.edges[at(slot)], q, u);
+      const std::span<const Vec3> d = c->placement->edge_displacement(slot, q);
+      for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(u[i], d[i + 1]);
+    }
+  }
+}
+
+TEST(LayerField, FallsOffAlongTheColumnAsTheFormulaSays) {
+  const SurfaceMesh surface = icosphere(1);
+  const auto c = sphere(surface, 0.1);
+  const LayerField field = c->field();
+  const Index step = static_cast<Index>(surface.points.size());
+  Points low(3), high(3);
+  for (Index slot = 0; at(slot) < c->wall.edge_count(); ++slot) {
+    const Index e = c->wall.edges[at(slot)], above = edge_above(*c, e, step);
+    const std::array<Index, 2>& v = c->topology.edge2vertex[at(e)];
+    field.edge(e, 4, low);
+    field.edge(above, 4, high);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double s = static_cast<double>(i + 1) / 4.0;
+      const double length = (1.0 - s) * field.decay_length(v[0]) + s * field.decay_length(v[1]);
+      EXPECT_LT((high[i] - decay(0.1 / length) * low[i]).norm(), 1e-14);
+    }
+  }
+}
+
+TEST(LayerField, DecaysOverTheMeanWallEdgeOrFiveDisplacements) {
+  const SurfaceMesh surface = icosphere(0);  // all edges equal, sagitta large
+  const auto c = sphere(surface, 1e-2);
+  const double h = mean_edge(surface);
+  const double largest = c->placement->largest_displacement();
+
+  LayerFieldOptions by_edge;
+  by_edge.reach = 0.7;
+  by_edge.reach_per_sagitta = 0.0;
+  EXPECT_NEAR(c->field(by_edge).decay_length(3), 0.7 * h, 1e-14);
+
+  LayerFieldOptions by_displacement;
+  by_displacement.reach = 0.0;
+  EXPECT_NEAR(c->field(by_displacement).decay_length(3), 5.0 * largest, 1e-14);
+  EXPECT_EQ(c->field().decay_length(static_cast<Index>(surface.points.size())), 0.0);
+}
+
+TEST(LayerField, EndsBeforeTheMiddleOfAGap) {
+  // Walls at radius 1 and 1.2: half of the gap is 0.1, much less than an edge.
+  std::vector<std::unique_ptr<GeometryModel>> parts;
+  parts.push_back(make_sphere(Vec3::Zero(), 1.0));
+  parts.push_back(make_sphere(Vec3::Zero(), 1.2));
+  LayerOptions options;
+  options.outer_entity = 2;
+  const SurfaceMesh surface = icosphere(2);
+  const auto c = make_case(layers_on(surface, {0.0, 0.05, 0.1, 0.15, 0.2}, outwards, options),
+                           joined(std::move(parts)));
+  const LayerField field = c->field();
+  for (Index v = 0; at(v) < surface.points.size(); ++v) {
+    EXPECT_GT(field.decay_length(v), 0.05);
+    EXPECT_LT(field.decay_length(v), 0.1);
+  }
+  EXPECT_TRUE(uncertified_cells(carried(*c, field, 4), all_cells(c->mesh)).empty());
+}
+
+TEST(LayerField, KeepsTheFirstCellsHeight) {
+  for (double first : {1e-2, 1e-4, 1e-7}) {
+    for (LayerFilling filling : {LayerFilling::stacked, LayerFilling::tets}) {
+      for (const SurfaceMesh& surface : {icosphere(1), cubed_sphere(3)}) {
+        if (filling == LayerFilling::tets && surface.faces[0][3] != k_none) continue;
+        const auto c = sphere(surface, first, filling);
+        const LayerField field = c->field();
+        const Index step = static_cast<Index>(surface.points.size());
+        double largest = 0.0;
+        Points low(3), high(3);
+        for (Index e : c->wall.edges) {
+          field.edge(e, 4, low);
+          field.edge(edge_above(*c, e, step), 4, high);
+          for (std::size_t i = 0; i < 3; ++i) {
+            largest = std::max(largest, (high[i] - low[i]).norm() / first);
+          }
+        }
+        EXPECT_LT(largest, filling == LayerFilling::tets ? 0.05 : 0.01) << first;
+      }
+    }
+  }
+}
+
+TEST(LayerField, KeepsStillPlanesPlane) {
+  const auto height = [](double x, double y) {
+    return x <= 0.0 || x >= 1.0 ? 0.0 : 0.2 * std::sin(M_PI * x) * (1.0 + y);
+  };
+  const BsplineSurface surface = bump(height, 9);
+  LayerOptions sides;
+  sides.lateral_entity = [](const Vec3& x) {
+    if (x.x() < 1e-9) return 11;
+    if (x.x() > 1.0 - 1e-9) return 12;
+    return x.y() < 1e-9 ? 13 : 14;
+  };
+  for (bool is_cut : {false, true}) {
+    sides.filling = is_cut ? LayerFilling::tets : LayerFilling::stacked;
+    const SurfaceMesh mesh =
+        grid(6, 4, [&](double u, double v) { return surface.jet({u, v}).s; }, is_cut);
+    const auto c = make_case(layers_on(
+                                 mesh, {0.0, 1e-3, 0.1, 0.5, 1.0},
+                                 [](const Vec3&) -> Vec3 { return Vec3::UnitZ(); }, sides),
+                             make_bspline_patch(bump(height, 9)));
+    const CurvedMesh curved = carried(*c, c->field(), 4);
+    std::size_t checked = 0;
+    double moved = 0.0;
+    for (Index f = 0; at(f) < c->topology.face_count(); ++f) {
+      const Patch* patch = c->association.patch_of(f);
+      if (!patch || patch->entity < 11 || patch->entity > 14) continue;
+      const Eigen::Index axis = patch->entity <= 12 ? 0 : 1;
+      const double plane = patch->entity % 2 == 1 ? 0.0 : 1.0;
+      Points nodes(static_cast<std::size_t>(node_count(c->topology.face_shape[at(f)], 4)));
+      curved.face_lattice(f, 4, nodes);
+      for (const Vec3& x : nodes) EXPECT_NEAR(x[axis], plane, 1e-15);
+      CurvedMesh straight = c->straight(4);
+      Points before(nodes.size());
+      straight.face_lattice(f, 4, before);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        moved = std::max(moved, (nodes[i] - before[i]).norm());
+      }
+      ++checked;
+      if (checked > 12) break;
+    }
+    EXPECT_GT(checked, 10u);
+    EXPECT_GT(moved, 1e-3) << "the planes' nodes slide";
+    EXPECT_TRUE(uncertified_cells(curved, all_cells(c->mesh)).empty());
+  }
+}
+
+TEST(LayerField, KeepsBothWallsOfAConcaveCorner) {
+  // Floor z = f(x, y) and wall x = g(y, z) over the same unit square, both 0 along their common edge.
+  const auto rise = [](double along, double away) {
+    return away <= 0.0 || away >= 1.0 ? 0.0
+                                      : 0.12 * std::pow(std::sin(M_PI * away), 2) * (0.5 + along);
+  };
+  const auto floor_height = [&](double x, double y) { return rise(y, x); };
+  const auto wall_height = [&](double y, double z) { return rise(y, z); };
+  const BsplineSurface floor = bump(floor_height, 9, Vec3::UnitX(), Vec3::UnitY());
+  const BsplineSurface wall = bump(wall_height, 9, Vec3::UnitY(), Vec3::UnitZ());
+  const std::vector<double> s{0.0, 1e-3, 0.15, 0.35, 0.6, 0.8, 1.0};
+  constexpr Index n = 7, m = 4;  // lattice points across and along
+  MeshData data;
+  data.source = "corner";
+  const auto vertex = [&](Index i, Index j, Index k) { return i + n * (j + m * k); };
+  for (Index k = 0; k < n; ++k) {
+    for (Index j = 0; j < m; ++j) {
+      for (Index i = 0; i < n; ++i) {
+        const double x = s[at(i)], z = s[at(k)], y = static_cast<double>(j) / (m - 1);
+        data.points.emplace_back(x + (1.0 - x) * wall.jet({y, z}).s.x(), y,
+                                 z + (1.0 - z) * floor.jet({x, y}).s.z());
+      }
+    }
+  }
+  ElementBlock hexes{Shape::hexahedron, 1, 1, {}, {}};
+  std::array<ElementBlock, 6> sides;
+  constexpr std::array<int, 6> entity{1, 2, 11, 12, 13, 14};
+  for (std::size_t side = 0; side < 6; ++side) {
+    sides[side] = {Shape::quadrilateral, 1, entity[side], {}, {}};
+  }
+  const auto quad = [&](std::size_t side, std::array<Index, 4> v) {
+    std::swap(v[2], v[3]);  // lattice order
+    sides[side].nodes.insert(sides[side].nodes.end(), v.begin(), v.end());
+  };
+  for (Index k = 0; k + 1 < n; ++k) {
+    for (Index j = 0; j + 1 < m; ++j) {
+      for (Index i = 0; i + 1 < n; ++i) {
+        std::array<Index, 8> v{};
+        for (std::size_t b = 0; b < 8; ++b) {
+          v[b] = vertex(i + static_cast<Index>(b & 1), j + static_cast<Index>((b >> 1) & 1),
+                        k + static_cast<Index>(b >> 2));
+        }
+        hexes.nodes.insert(hexes.nodes.end(), v.begin(), v.end());
+        if (k == 0) quad(0, {v[0], v[1], v[3], v[2]});
+        if (i == 0) quad(1, {v[0], v[2], v[6], v[4]});
+        if (k + 2 == n) quad(2, {v[4], v[5], v[7], v[6]});
+        if (i + 2 == n) quad(3, {v[1], v[3], v[7], v[5]});
+        if (j == 0) quad(4, {v[0], v[1], v[5], v[4]});
+        if (j + 2 == m) quad(5, {v[2], v[3], v[7], v[6]});
+      }
+    }
+  }
+  data.blocks.push_back(hexes);
+  data.blocks.insert(data.blocks.end(), sides.begin(), sides.end());
+  std::vector<std::unique_ptr<GeometryModel>> parts;
+  parts.push_back(make_bspline_patch(bump(floor_height, 9, Vec3::UnitX(), Vec3::UnitY())));
+  parts.push_back(make_bspline_patch(bump(wall_height, 9, Vec3::UnitY(), Vec3::UnitZ())));
+
+  const auto c = make_case(data, joined(std::move(parts)));
+  const LayerField field = c->field();
+  const CurvedMesh curved = carried(*c, field, 4);
+
+  EXPECT_TRUE(uncertified_cells(curved, all_cells(c->mesh)).empty());
+  // Along both walls the first layer of cells keeps its height, away from the corner.
+  Points low(3), high(3);
+  double moved = 0.0, largest = 0.0;
+  for (Index j = 0; j < m; ++j) {
+    for (Index i = 2; i + 1 < n; ++i) {
+      const std::array<std::array<Index, 4>, 2> pairs{
+          std::array{vertex(i, j, 0), vertex(i + 1, j, 0), vertex(i, j, 1), vertex(i + 1, j, 1)},
+          std::array{vertex(0, j, i), vertex(0, j, i + 1), vertex(1, j, i), vertex(1, j, i + 1)}};
+      for (const std::array<Index, 4>& v : pairs) {
+        field.edge(c->topology.find_edge(v[0], v[1]), 4, low);
+        field.edge(c->topology.find_edge(v[2], v[3]), 4, high);
+        for (std::size_t k = 0; k < 3; ++k) {
+          moved = std::max(moved, low[k].norm());
+          largest = std::max(largest, (high[k] - low[k]).norm());
+        }
+      }
+    }
+  }
+  EXPECT_GT(moved, 1e-3);
+  EXPECT_LT(largest, 0.01 * s[1]);
+}
+
+TEST(LayerField, AppliedToSomeCellsTouchesOnlyThese) {
+  const auto c = sphere(icosphere(0), 1e-2);
+  const LayerField field = c->field();
+  const CurvedMesh all = carried(*c, field, 3);
+  CurvedMesh some = c->straight(3);
+  const CurvedMesh straight = c->straight(3);
+
+  apply_field(field, some, {4});
+
+  Points a, b;
+  some.gather(4, 3, a);
+  all.gather(4, 3, b);
+  EXPECT_EQ(a, b);
+  const std::span<const Index> own = c->topology.edges_of_cell(4);
+  for (Index e = 0; at(e) < c->topology.edge_count(); ++e) {
+    if (std::find(own.begin(), own.end(), e) != own.end()) continue;
+    EXPECT_EQ(some.edge_nodes(e)[0], straight.edge_nodes(e)[0]);
+  }
+}
+
+}  // namespace
+}  // namespace camber
