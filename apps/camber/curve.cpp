@@ -22,7 +22,7 @@ struct CurveFlags {
   CommonFlags common;
   FormatFlags format;
   CurveOptions options;
-  std::string mesh, unit = "auto", deviation_length = "face";
+  std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer";
   std::vector<std::string> geometry, outputs, patches;
 };
 
@@ -68,6 +68,7 @@ CurveOptions options_of(const CurveFlags& flags) {
   options.scale = scale_of_unit(flags.unit);
   set_deviation_length(flags.deviation_length, options.orders);
   set_patches(flags.patches, options.association);
+  options.propagation = flags.propagation == "cell" ? Propagation::cell : Propagation::layer;
   if (options.orders.min_order > options.orders.max_order) {
     throw OptionError(fmt::format("the lowest order {} is above the highest, {}",
                                   options.orders.min_order, options.orders.max_order),
@@ -85,6 +86,7 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"uniform", yes_no(options.uniform)},
       {"deviation", fmt::format("{:g}", options.orders.deviation)},
       {"deviation-length", flags.deviation_length},
+      {"propagate", flags.propagation},
       {"unit", flags.unit},
       {"allow-invalid", yes_no(options.allow_invalid)},
       {"strict", yes_no(options.strict)}};
@@ -175,6 +177,13 @@ void add_order_flags(CLI::App& verb, CurveFlags& flags) {
                   "face: shortest edge of the wall face; cell: of the cell on it, as in the paper; "
                   "or a length [mesh units]")
       ->type_name("face|cell|LENGTH")
+      ->capture_default_str();
+  verb.add_option(
+          "--propagate", flags.propagation,
+          "layer: the wall's displacement is carried through the whole boundary layer; cell: it "
+          "dies out in the first cell, as in the paper")
+      ->check(CLI::IsMember({"layer", "cell"}))
+      ->type_name("layer|cell")
       ->capture_default_str();
 }
 

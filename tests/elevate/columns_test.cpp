@@ -59,7 +59,8 @@ TEST(Columns, DoNotStandOnTets) {
 }
 
 TEST(Columns, BetweenTwoWallsEndWhereTheyMeet) {
-  // Cylinders of radius 1 and 2, five layers between: the third belongs to one of them, never to both.
+  // Cylinders of radius 1 and 2, five layers between: the third belongs to one of them, never to
+  // both.
   const auto around = [](double u, double v) {
     const double angle = 2.0 * std::numbers::pi * u;
     return Vec3(std::cos(angle), std::sin(angle), v);
@@ -70,11 +71,10 @@ TEST(Columns, BetweenTwoWallsEndWhereTheyMeet) {
   parts.push_back(make_cylinder(Vec3::Zero(), Vec3::UnitZ(), 1.0));
   parts.push_back(make_cylinder(Vec3::Zero(), Vec3::UnitZ(), 2.0));
   const SurfaceMesh surface = grid(8, 2, around, false, true);
-  const auto c = make_case(
-      layers_on(
-          surface, {0.0, 0.2, 0.4, 0.6, 0.8, 1.0},
-          [](const Vec3& x) { return Vec3(x.x(), x.y(), 0.0); }, options),
-      joined(std::move(parts)), 2);
+  const auto c = make_case(layers_on(
+                               surface, {0.0, 0.2, 0.4, 0.6, 0.8, 1.0},
+                               [](const Vec3& x) { return Vec3(x.x(), x.y(), 0.0); }, options),
+                           joined(std::move(parts)), 2);
   const Index n = static_cast<Index>(surface.points.size());
 
   ASSERT_EQ(c->wall.face_count(), 2 * surface.faces.size());

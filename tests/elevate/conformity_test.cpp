@@ -67,9 +67,7 @@ Vec3 off_torus(const Vec3& x) {
 
 std::unique_ptr<GeometryModel> sphere() { return make_sphere(Vec3::Zero(), 1.0); }
 std::unique_ptr<GeometryModel> ellipsoid() { return make_ellipsoid(Vec3::Zero(), k_axes); }
-std::unique_ptr<GeometryModel> torus() {
-  return make_torus(Vec3::Zero(), Vec3::UnitZ(), 2.0, 1.0);
-}
+std::unique_ptr<GeometryModel> torus() { return make_torus(Vec3::Zero(), Vec3::UnitZ(), 2.0, 1.0); }
 
 TEST(Conformity, ConvergesOnTheSphereWithTriangles) {
   expect_convergence([](int level) { return icosphere(level); }, outwards, sphere);
@@ -95,7 +93,8 @@ TEST(Conformity, ConvergesOnTheTorusWithQuadrilaterals) {
 }
 
 TEST(Conformity, OfOneFlatTriangleUnderASphereMatchesTheIntegralByHand) {
-  // A face of the icosahedron at order 1: distance 1 - |x|. Compared with a midpoint rule on 400^2 points.
+  // A face of the icosahedron at order 1: distance 1 - |x|. Compared with a midpoint rule on 400^2
+  // points.
   const auto c = make_case(layers_on(icosphere(0), {0.0, 0.1}, outwards), sphere());
   const SurfaceMesh surface = icosphere(0);
   const auto& [a, b, d, unused] = surface.faces[0];

@@ -95,7 +95,8 @@ TEST(FaceTree, FindsWhatBruteForceFinds) {
 
 TEST(FaceTree, ReferencePointsLieWhereTheHitIs) {
   const Shell shell = shell_of(icosphere(1));
-  const FaceTree tree(shell.mesh, shell.topology, shell.faces, std::vector<int>(shell.faces.size(), 0));
+  const FaceTree tree(shell.mesh, shell.topology, shell.faces,
+                      std::vector<int>(shell.faces.size(), 0));
   for (const Vec3& x : random_points(50)) {
     FaceHit hit;
     ASSERT_TRUE(tree.nearest(x, 10.0, hit));
@@ -110,7 +111,8 @@ TEST(FaceTree, ReferencePointsLieWhereTheHitIs) {
 TEST(FaceTree, AnswersOncePerLabelSortedByDistance) {
   const Shell shell = shell_of(icosphere(1));
   std::vector<int> labels;
-  for (std::size_t i = 0; i < shell.faces.size(); ++i) labels.push_back(static_cast<int>(i % 7) % 5);
+  for (std::size_t i = 0; i < shell.faces.size(); ++i)
+    labels.push_back(static_cast<int>(i % 7) % 5);
   const FaceTree tree(shell.mesh, shell.topology, shell.faces, labels);
   std::vector<FaceHit> hits;
   for (const Vec3& x : random_points(20)) {
@@ -138,9 +140,11 @@ TEST(FaceTree, AnswersOncePerLabelSortedByDistance) {
 }
 
 TEST(FaceTree, TiesGoToTheLowestFace) {
-  // From the centre of a sphere of equal triangles everything is equally near; over a vertex six are.
+  // From the centre of a sphere of equal triangles everything is equally near; over a vertex six
+  // are.
   const Shell shell = shell_of(icosphere(0));
-  const FaceTree tree(shell.mesh, shell.topology, shell.faces, std::vector<int>(shell.faces.size(), 0));
+  const FaceTree tree(shell.mesh, shell.topology, shell.faces,
+                      std::vector<int>(shell.faces.size(), 0));
   for (const Vec3& vertex : icosphere(0).points) {
     Index lowest = k_none;
     for (Index i = 0; at(i) < shell.faces.size() && lowest == k_none; ++i) {

@@ -68,7 +68,8 @@ class JoinedModel final : public GeometryModel {
   }
   CurveRange range(int curve) const override { return part(1).range(curve); }
   Vec2 periods(int face) const override { return part(face).periods(1); }
-  Vec2 curve_on_face(int curve, int face, double t, const std::optional<Vec2>& near) const override {
+  Vec2 curve_on_face(int curve, int face, double t,
+                     const std::optional<Vec2>& near) const override {
     return part(face).curve_on_face(curve, 1, t, near);
   }
   std::unique_ptr<Projector> projector() const override {

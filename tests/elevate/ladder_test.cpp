@@ -58,10 +58,16 @@ std::vector<Body> bodies() {
     return (circle - x).normalized();
   };
   const auto torus = [] { return make_torus(Vec3::Zero(), Vec3::UnitZ(), k_major, k_minor); };
-  all.push_back({"torus inside, hexes", torus_grid(k_major, k_minor, 20, 8, false), to_tube_centre,
-                 torus, {}});
-  all.push_back({"torus inside, prisms", torus_grid(k_major, k_minor, 20, 8, true), to_tube_centre,
-                 torus, {}});
+  all.push_back({"torus inside, hexes",
+                 torus_grid(k_major, k_minor, 16, 8, false),
+                 to_tube_centre,
+                 torus,
+                 {}});
+  all.push_back({"torus inside, prisms",
+                 torus_grid(k_major, k_minor, 16, 8, true),
+                 to_tube_centre,
+                 torus,
+                 {}});
 
   const auto on_hill = [](double u, double v) {
     static const BsplineSurface surface = bump(hill, 13);
@@ -75,13 +81,13 @@ std::vector<Body> bodies() {
   };
   const auto up = [](const Vec3&) -> Vec3 { return Vec3::UnitZ(); };
   const auto hill_model = [] { return make_bspline_patch(bump(hill, 13)); };
-  all.push_back({"bump, hexes", grid(10, 10, on_hill), up, hill_model, sides});
-  all.push_back({"bump, prisms", grid(10, 10, on_hill, true), up, hill_model, sides});
-  all.push_back(cut({"bump, tets", grid(10, 10, on_hill, true), up, hill_model, sides}));
+  all.push_back({"bump, hexes", grid(8, 8, on_hill), up, hill_model, sides});
+  all.push_back({"bump, prisms", grid(8, 8, on_hill, true), up, hill_model, sides});
+  all.push_back(cut({"bump, tets", grid(8, 8, on_hill, true), up, hill_model, sides}));
   return all;
 }
 
-std::unique_ptr<Case> layered(const Body& body, double first_over_edge, double ratio = 10.0) {
+std::unique_ptr<Case> layered(const Body& body, double first_over_edge, double ratio = 30.0) {
   const double h = mean_edge(body.surface);
   const double total = body.surface.points.front().norm() > 1.5 * k_minor ? 0.6 * k_minor : 1.5 * h;
   const std::vector<double> heights = growing_heights(first_over_edge * h, ratio, total);

@@ -146,8 +146,12 @@ TEST(LayerField, KeepsStillPlanesPlane) {
   };
   for (bool is_cut : {false, true}) {
     sides.filling = is_cut ? LayerFilling::tets : LayerFilling::stacked;
-    const SurfaceMesh mesh =
-        grid(6, 4, [&](double u, double v) { return surface.jet({u, v}).s; }, is_cut);
+    const SurfaceMesh mesh = grid(
+        6, 4,
+        [&](double u, double v) {
+          return surface.jet({u, v}).s;
+        },
+        is_cut);
     const auto c = make_case(layers_on(
                                  mesh, {0.0, 1e-3, 0.1, 0.5, 1.0},
                                  [](const Vec3&) -> Vec3 { return Vec3::UnitZ(); }, sides),
@@ -179,7 +183,8 @@ TEST(LayerField, KeepsStillPlanesPlane) {
 }
 
 TEST(LayerField, KeepsBothWallsOfAConcaveCorner) {
-  // Floor z = f(x, y) and wall x = g(y, z) over the same unit square, both 0 along their common edge.
+  // Floor z = f(x, y) and wall x = g(y, z) over the same unit square, both 0 along their common
+  // edge.
   const auto rise = [](double along, double away) {
     return away <= 0.0 || away >= 1.0 ? 0.0
                                       : 0.12 * std::pow(std::sin(M_PI * away), 2) * (0.5 + along);

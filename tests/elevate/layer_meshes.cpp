@@ -55,8 +55,8 @@ double six_volumes(const Points& x, const std::vector<Index>& v) {
   return (x[at(v[1])] - o).cross(x[at(v[2])] - o).dot(x[at(v[3])] - o);
 }
 
-/// A prism as three tets; each lateral face is cut from its lower wall vertex at the bottom to its higher
-/// one at the top, so neighbours agree.
+/// A prism as three tets; each lateral face is cut from its lower wall vertex at the bottom to its
+/// higher one at the top, so neighbours agree.
 void append_split(MeshData& data, std::array<Index, 3> low, Index step) {
   std::sort(low.begin(), low.end());
   const auto& [a, b, c] = low;

@@ -27,15 +27,18 @@ SurfaceMesh icosphere(int refinements);
 SurfaceMesh cubed_sphere(int n);
 /// n_u x n_v quadrilaterals (or twice as many triangles) on a torus around z.
 SurfaceMesh torus_grid(double major, double minor, int n_u, int n_v, bool is_triangles);
-/// point(u, v) on the lattice of [0,1]^2; du x dv points out of the CAD. Quads, or triangles cut along
-/// a diagonal. Periodic in u if asked: then u = 1 is u = 0.
+/// point(u, v) on the lattice of [0,1]^2; du x dv points out of the CAD. Quads, or triangles cut
+/// along a diagonal. Periodic in u if asked: then u = 1 is u = 0.
 SurfaceMesh grid(int n_u, int n_v, const std::function<Vec3(double, double)>& point,
                  bool is_triangles = false, bool is_periodic_in_u = false);
 SurfaceMesh stretched(SurfaceMesh surface, const Vec3& factors);
 /// Mean length of all edges (inner ones counted twice).
 double mean_edge(const SurfaceMesh& surface);
 
-enum class LayerFilling { stacked, tets };  // prisms and hexahedra as they are, or prisms cut in three
+enum class LayerFilling {
+  stacked,
+  tets
+};  // prisms and hexahedra as they are, or prisms cut in three
 
 struct LayerOptions {
   LayerFilling filling = LayerFilling::stacked;
@@ -81,8 +84,8 @@ CurvedMesh carried(const Case& c, const LayerField& field, int order);
 /// A model of several faces made of one-face models: face i + 1 is parts[i]'s. No curves.
 std::unique_ptr<GeometryModel> joined(std::vector<std::unique_ptr<GeometryModel>> parts);
 
-/// Cubic B-spline z(x, y) over [0,1]^2 with the given height at its poles (flat border if these are 0
-/// there), lying in the plane of e1, e2 with z along e3 = e1 x e2, all through the origin.
+/// Cubic B-spline z(x, y) over [0,1]^2 with the given height at its poles (flat border if these are
+/// 0 there), lying in the plane of e1, e2 with z along e3 = e1 x e2, all through the origin.
 BsplineSurface bump(const std::function<double(double, double)>& height, int poles,
                     const Vec3& e1 = Vec3::UnitX(), const Vec3& e2 = Vec3::UnitY());
 

@@ -45,8 +45,7 @@ double largest_gap(const Case& c, int q) {
     for (std::size_t i = 0; i < map.edge_interior.size(); ++i) {
       const Index e = c.topology.face2edge[at(f)][i];
       std::span<const Vec3> own = c.placement->edge_nodes(c.wall.edge_slot[at(e)], q);
-      const bool is_reversed =
-          c.topology.edge2vertex[at(e)][0] != c.topology.face2vertex[at(f)][i];
+      const bool is_reversed = c.topology.edge2vertex[at(e)][0] != c.topology.face2vertex[at(f)][i];
       for (std::size_t k = 0; k < own.size(); ++k) {
         const Vec3& on_edge = own[is_reversed ? own.size() - 1 - k : k];
         gap = std::max(gap,
@@ -80,14 +79,14 @@ TEST(Placement, OfTheMiddleOfAnArcIsTheArcsMiddle) {
 }
 
 TEST(Placement, KeepsFacesThatTurnFarUnfolded) {
-  // 80 triangles on an ellipsoid 3:1:0.5: closest points fold 92 cells, lines along the normals none.
+  // 80 triangles on an ellipsoid 3:1:0.5: closest points fold 92 cells, lines along the normals
+  // none.
   const Vec3 axes(3.0, 1.0, 0.5);
-  const auto c = make_case(
-      layers_on(stretched(icosphere(1), axes), {0.0, 1e-3},
-                [&](const Vec3& x) -> Vec3 {
-                  return x.cwiseQuotient(axes.cwiseProduct(axes)).normalized();
-                }),
-      make_ellipsoid(Vec3::Zero(), axes));
+  const auto c = make_case(layers_on(stretched(icosphere(1), axes), {0.0, 1e-3},
+                                     [&](const Vec3& x) -> Vec3 {
+                                       return x.cwiseQuotient(axes.cwiseProduct(axes)).normalized();
+                                     }),
+                           make_ellipsoid(Vec3::Zero(), axes));
   double lowest = 1.0;
   // At order 3 two of these faces turn a little beyond 90 degrees (lowest ratio -0.009).
   for (int q : {2, 4}) {
@@ -115,7 +114,8 @@ TEST(Placement, StaysInThePlaneThatTheWallEndsOn) {
     if (x.y() < 1e-9) return 11;
     return x.x() < 1e-9 ? 12 : 13;
   };
-  // The strip is not closed around the tube: its seam (z = 0, outside) is patch 13 and stays straight.
+  // The strip is not closed around the tube: its seam (z = 0, outside) is patch 13 and stays
+  // straight.
   const auto away = [](const Vec3& x) -> Vec3 {
     return (x - 3.0 * Vec3(x.x(), x.y(), 0.0).normalized()).normalized();
   };

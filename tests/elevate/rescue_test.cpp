@@ -61,8 +61,7 @@ TEST(Rescue, HalvesOneBadEdgeUntilItsCellsAreValid) {
   const Vec3 straight = curved.edge_nodes(e)[0], pull(0.9, -0.4, 0.7);
   curved.edge_nodes(e)[0] += pull;
 
-  const RescueResult result =
-      scale_back(curved, uncertified_cells(curved, all_cells(c->mesh)));
+  const RescueResult result = scale_back(curved, uncertified_cells(curved, all_cells(c->mesh)));
 
   const Vec3 left = curved.edge_nodes(e)[0] - straight;
   const double share = left.norm() / pull.norm();

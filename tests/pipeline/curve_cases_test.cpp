@@ -1,10 +1,11 @@
 // curve() on the bundled cases: what is promised, and what it reaches on each.
 #include "curve_cases.hpp"
 
-#include <camber/base/error.hpp>
+#include <camber/base/parallel.hpp>
 #include <camber/pipeline/check.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -144,6 +145,35 @@ TEST(CurveWing, KeepsItsPromisesAtOrderFour) {
   EXPECT_EQ(seen.validity.min_scaled_jacobian, result.report.validity.min_scaled_jacobian);
   EXPECT_EQ(seen.conformity.max_order_jump, result.report.conformity.max_order_jump);
   EXPECT_LE(seen.conformity.max_gap, 1e-13 * seen.conformity.model_size);
+}
+
+// 476 tets on a torus, far too coarse for it: the start is inverted and the ladder has to be
+// climbed.
+TEST(CurveCoarseTorus, EndsCertifiedWithTheSameBitsForAnyNumberOfThreads) {
+  const std::string folder = std::string(CAMBER_SHARED_CASES) + "/layers/";
+  if (!std::filesystem::exists(folder + "torus_tet.msh")) GTEST_SKIP() << "no shared cases here";
+  const MeshData mesh = io::read_mesh(folder + "torus_tet.msh");
+  std::vector<testing::Bits> bits;
+  for (int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    const std::unique_ptr<GeometryModel> geometry = read_cad(folder + "torus_tet.brep");
+
+    const CurveResult result = curve(mesh, *geometry, order(2));
+
+    expect_promises(result);
+    const Report& report = result.report;
+    EXPECT_LT(report.surface.average, report.surface.linear_average);
+    // What was given up is listed with its place and its cost.
+    if (report.rescue.orders_lowered + report.rescue.scaled_back > 0) {
+      ASSERT_FALSE(report.rescue.places.empty());
+      for (const RescuePlace& place : report.rescue.places) {
+        EXPECT_FALSE(place.reason.empty());
+        EXPECT_LE(place.distance, report.surface.maximum);
+      }
+    }
+    bits.push_back(testing::bits_of(result));
+  }
+  EXPECT_EQ(bits[0], bits[1]);
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ bool fit_plane(const LinearMesh& mesh, const Topology& topology, const std::vect
     for (int i = 0; i < n; ++i) {
       const std::size_t s = static_cast<std::size_t>(i);
       const Vec3& a = mesh.vertices[at(topology.face2vertex[at(f)][s])];
-      const Vec3& b = mesh.vertices[at(topology.face2vertex[at(f)][(s + 1) % static_cast<std::size_t>(n)])];
+      const Vec3& b =
+          mesh.vertices[at(topology.face2vertex[at(f)][(s + 1) % static_cast<std::size_t>(n)])];
       face_area += 0.5 * (a - first).cross(b - first);
       face_centre += a / n;
     }

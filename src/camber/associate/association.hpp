@@ -1,27 +1,27 @@
 #pragma once
 // Which CAD entities each boundary entity of the mesh may lie on, and how its patches behave.
+#include <camber/geom/geometry_model.hpp>
+#include <camber/mesh/topology.hpp>
+
 #include <array>
 #include <map>
 #include <string>
 #include <vector>
 
-#include <camber/geom/geometry_model.hpp>
-#include <camber/mesh/topology.hpp>
-
 namespace camber {
 
 enum class PatchKind {
-  cad,       // lies on CAD faces that are not all planar: nodes are placed on them
-  plane,     // planar, with or without CAD: nodes may move inside the plane
-  straight   // no CAD and not planar: stays as it is
+  cad,      // lies on CAD faces that are not all planar: nodes are placed on them
+  plane,    // planar, with or without CAD: nodes may move inside the plane
+  straight  // no CAD and not planar: stays as it is
 };
 
 /// A set of boundary faces with one surface entity tag.
 struct Patch {
-  int entity = 0;        // surface tag in the mesh file
-  std::string name;      // physical name, else CAD name, else "surface 7"
+  int entity = 0;    // surface tag in the mesh file
+  std::string name;  // physical name, else CAD name, else "surface 7"
   PatchKind kind = PatchKind::straight;
-  GeometryGroup group;   // CAD faces; empty without CAD
+  GeometryGroup group;                                // CAD faces; empty without CAD
   Vec3 origin = Vec3::Zero(), normal = Vec3::Zero();  // of a plane
   std::size_t faces = 0;
 };
@@ -43,10 +43,11 @@ struct Association {
 
 /// Plane through the vertices of the given faces: true if all lie within `tolerance` of it.
 [[nodiscard]] bool fit_plane(const LinearMesh& mesh, const Topology& topology,
-                             const std::vector<Index>& faces, double tolerance, Vec3& origin, Vec3& normal);
+                             const std::vector<Index>& faces, double tolerance, Vec3& origin,
+                             Vec3& normal);
 
-/// Boundary faces by patch, in patch order of `patches` (patch faces of the file; cell faces on the boundary
-/// without a surface element get a patch of their own with entity 0).
+/// Boundary faces by patch, in patch order of `patches` (patch faces of the file; cell faces on the
+/// boundary without a surface element get a patch of their own with entity 0).
 [[nodiscard]] std::map<int, std::vector<Index>> boundary_faces_by_entity(const LinearMesh& mesh,
                                                                          const Topology& topology);
 

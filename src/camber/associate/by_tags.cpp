@@ -1,13 +1,12 @@
 #include <camber/associate/by_tags.hpp>
+#include <camber/base/error.hpp>
+#include <camber/base/log.hpp>
+#include <camber/base/parallel.hpp>
 
 #include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
-
-#include <camber/base/error.hpp>
-#include <camber/base/log.hpp>
-#include <camber/base/parallel.hpp>
 
 namespace camber {
 namespace {
@@ -37,7 +36,8 @@ class TagAssociator {
     return entity >= 1 && entity <= model_.count(2);
   }
 
-  /// Boundary faces that the file lists no surface element for: by the classification of their vertices.
+  /// Boundary faces that the file lists no surface element for: by the classification of their
+  /// vertices.
   void classify_loose_faces() {
     const auto loose = by_entity_.find(0);
     if (loose == by_entity_.end()) return;
@@ -45,7 +45,8 @@ class TagAssociator {
     for (Index f : loose->second) {
       std::set<int> surfaces;
       for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-        const EntityKey key = mesh_.vertex_entity[at(topology_.face2vertex[at(f)][static_cast<std::size_t>(i)])];
+        const EntityKey key =
+            mesh_.vertex_entity[at(topology_.face2vertex[at(f)][static_cast<std::size_t>(i)])];
         if (key.dim == 2) surfaces.insert(key.tag);
         if (key.dim > 2 || key.dim < 0) surfaces.insert(-1);
       }
@@ -76,7 +77,8 @@ class TagAssociator {
       if (is_cad_surface(entity) && rule != PatchRule::free && rule != PatchRule::fixed) {
         patch.group = {{2, entity}};
         const std::string cad_name = model_.name({2, entity});
-        if (patch.name == fmt::format("surface {}", entity) && !cad_name.empty()) patch.name = cad_name;
+        if (patch.name == fmt::format("surface {}", entity) && !cad_name.empty())
+          patch.name = cad_name;
         const bool is_plane = rule == PatchRule::plane || (model_.is_planar(entity) && is_flat);
         patch.kind = is_plane ? PatchKind::plane : PatchKind::cad;
       } else {
@@ -111,21 +113,23 @@ class TagAssociator {
     return PatchRule::automatic;
   }
 
-  /// A vertex refers to the CAD if its tag exists there and it belongs to a patch on the CAD; without a
-  /// classification of its own it refers to a face of that patch.
+  /// A vertex refers to the CAD if its tag exists there and it belongs to a patch on the CAD;
+  /// without a classification of its own it refers to a face of that patch.
   void link_vertices() {
     std::vector<GeomEntity> face_at(mesh_.vertices.size());
     for (Index f = 0; at(f) < topology_.face_count(); ++f) {
       const Patch* patch = result_.patch_of(f);
       if (!patch || patch->group.empty()) continue;
       for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-        face_at[at(topology_.face2vertex[at(f)][static_cast<std::size_t>(i)])] = patch->group.front();
+        face_at[at(topology_.face2vertex[at(f)][static_cast<std::size_t>(i)])] =
+            patch->group.front();
       }
     }
     result_.vertex2entity = face_at;
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       const EntityKey key = mesh_.vertex_entity[v];
-      if (face_at[v].dim == 2 && key.dim >= 0 && key.dim <= 2 && key.tag >= 1 && key.tag <= model_.count(key.dim)) {
+      if (face_at[v].dim == 2 && key.dim >= 0 && key.dim <= 2 && key.tag >= 1 &&
+          key.tag <= model_.count(key.dim)) {
         result_.vertex2entity[v] = {key.dim, key.tag};
       }
     }
@@ -173,9 +177,11 @@ class TagAssociator {
     constexpr std::array<const char*, 3> kind{"vertex", "curve", "surface"};
     const Vec3& x = mesh_.vertices[v];
     throw GeometryError(
-        fmt::format("mesh and CAD do not fit: vertex {} of {} {} lies {:.3g} away from that CAD entity "
-                    "(allowed {:.3g}); {} entities do not fit",
-                    mesh_.vertex_tags[v], kind[static_cast<std::size_t>(bad.dim)], bad.tag, excess, allowed, count),
+        fmt::format(
+            "mesh and CAD do not fit: vertex {} of {} {} lies {:.3g} away from that CAD entity "
+            "(allowed {:.3g}); {} entities do not fit",
+            mesh_.vertex_tags[v], kind[static_cast<std::size_t>(bad.dim)], bad.tag, excess, allowed,
+            count),
         fmt::format("at ({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()),
         "the mesh was made from another CAD file, or its tags were renumbered");
   }
@@ -194,21 +200,26 @@ class TagAssociator {
     for (Index f = 0; at(f) < topology_.face_count(); ++f) {
       if (result_.face2patch[at(f)] == k_none) continue;
       for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-        std::array<Index, 2>& p = patches_of_edge[at(topology_.face2edge[at(f)][static_cast<std::size_t>(i)])];
+        std::array<Index, 2>& p =
+            patches_of_edge[at(topology_.face2edge[at(f)][static_cast<std::size_t>(i)])];
         (p[0] == k_none ? p[0] : p[1]) = result_.face2patch[at(f)];
       }
     }
     for (const LinearMesh::Line& line : mesh_.lines) {
-      if (line.curve < 1 || line.curve > model_.count(1) || model_.is_degenerate(line.curve)) continue;
+      if (line.curve < 1 || line.curve > model_.count(1) || model_.is_degenerate(line.curve))
+        continue;
       const Index e = topology_.find_edge(line.a, line.b);
-      if (e != k_none && touches_cad(patches_of_edge[at(e)])) result_.edge2curve[at(e)] = {1, line.curve};
+      if (e != k_none && touches_cad(patches_of_edge[at(e)]))
+        result_.edge2curve[at(e)] = {1, line.curve};
     }
     // Edges between two CAD patches for which the file lists no line element.
     const std::unique_ptr<Projector> projector = model_.projector();
     for (Index e = 0; at(e) < topology_.edge_count(); ++e) {
       const std::array<Index, 2>& p = patches_of_edge[at(e)];
-      if (p[0] == k_none || p[1] == k_none || p[0] == p[1] || result_.edge2curve[at(e)].dim == 1) continue;
-      const GeometryGroup &a = result_.patches[at(p[0])].group, &b = result_.patches[at(p[1])].group;
+      if (p[0] == k_none || p[1] == k_none || p[0] == p[1] || result_.edge2curve[at(e)].dim == 1)
+        continue;
+      const GeometryGroup &a = result_.patches[at(p[0])].group,
+                          &b = result_.patches[at(p[1])].group;
       if (a.empty() || b.empty()) continue;
       result_.edge2curve[at(e)] = common_curve(*projector, e, a, b);
     }
@@ -226,7 +237,8 @@ class TagAssociator {
     const Vec3& from = mesh_.vertices[at(topology_.edge2vertex[at(e)][0])];
     const Vec3& to = mesh_.vertices[at(topology_.edge2vertex[at(e)][1])];
     GeomEntity best;
-    double nearest = std::max(options_.distance_tolerance * mesh_.size(), 1e-3 * (to - from).norm());
+    double nearest =
+        std::max(options_.distance_tolerance * mesh_.size(), 1e-3 * (to - from).norm());
     for (const GeomEntity& face_a : a) {
       for (int curve : model_.curves_of_face(face_a.tag)) {
         if (model_.is_degenerate(curve)) continue;
@@ -257,8 +269,8 @@ class TagAssociator {
 
 }  // namespace
 
-Association associate_by_tags(const LinearMesh& mesh, const Topology& topology, const GeometryModel& model,
-                              const TagOptions& options) {
+Association associate_by_tags(const LinearMesh& mesh, const Topology& topology,
+                              const GeometryModel& model, const TagOptions& options) {
   return TagAssociator(mesh, topology, model, options).run();
 }
 

@@ -1,5 +1,5 @@
-#include <camber/base/error.hpp>
 #include <camber/associate/cad_scale.hpp>
+#include <camber/base/error.hpp>
 
 #include <algorithm>
 #include <array>

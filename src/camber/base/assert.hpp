@@ -4,13 +4,13 @@
 #include <cstdlib>
 
 #if defined(CAMBER_ASSERTIONS)
-#define CAMBER_ASSERT(condition, hint)                                                         \
-  do {                                                                                         \
-    if (!(condition)) {                                                                        \
+#define CAMBER_ASSERT(condition, hint)                                                          \
+  do {                                                                                          \
+    if (!(condition)) {                                                                         \
       std::fprintf(stderr, "%s:%d: assertion failed: %s: %s\n", __FILE__, __LINE__, #condition, \
-                   hint);                                                                      \
-      std::abort();                                                                            \
-    }                                                                                          \
+                   hint);                                                                       \
+      std::abort();                                                                             \
+    }                                                                                           \
   } while (false)
 #else
 #define CAMBER_ASSERT(condition, hint) static_cast<void>(0)

@@ -1,11 +1,11 @@
 #pragma once
 // Exact keys for entities known by their corner vertices.
+#include <camber/base/ids.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
-
-#include <camber/base/ids.hpp>
 
 namespace camber {
 

@@ -4,8 +4,8 @@
 
 namespace camber {
 
-/// What a user did wrong or the machine could not do: what happened, where, and what to do about it.
-/// A numerical outcome is never an Error but a value (Verdict, Projection::status).
+/// What a user did wrong or the machine could not do: what happened, where, and what to do about
+/// it. A numerical outcome is never an Error but a value (Verdict, Projection::status).
 class Error : public std::runtime_error {
  public:
   Error(std::string what, std::string where, std::string remedy);
@@ -17,7 +17,8 @@ class Error : public std::runtime_error {
   std::string message_, where_, remedy_;
 };
 
-/// A file cannot be read or written, or its content breaks its format. `where` holds path and place.
+/// A file cannot be read or written, or its content breaks its format. `where` holds path and
+/// place.
 struct FileError : Error {
   using Error::Error;
 };

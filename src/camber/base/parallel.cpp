@@ -14,8 +14,9 @@ namespace camber {
 
 struct ThreadLimit::Impl {
   explicit Impl(int threads)
-      : control(tbb::global_control::max_allowed_parallelism,
-                static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency())) {}
+      : control(
+            tbb::global_control::max_allowed_parallelism,
+            static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency())) {}
   tbb::global_control control;
 };
 

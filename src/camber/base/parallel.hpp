@@ -23,7 +23,8 @@ class ThreadLimit {
 
 /// Calls body(begin, end) over disjoint ranges that cover [0, n). Ranges are cut at multiples of
 /// `grain` whatever the number of threads, so a body that writes only to its own range gives the
-/// same bits for any thread count. The first exception (lowest range) is rethrown after all finished.
+/// same bits for any thread count. The first exception (lowest range) is rethrown after all
+/// finished.
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 

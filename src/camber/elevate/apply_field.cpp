@@ -1,11 +1,10 @@
+#include <camber/base/parallel.hpp>
+#include <camber/basis/lagrange.hpp>
 #include <camber/elevate/apply_field.hpp>
 
 #include <algorithm>
 #include <array>
 #include <numeric>
-
-#include <camber/base/parallel.hpp>
-#include <camber/basis/lagrange.hpp>
 
 namespace camber {
 namespace {
@@ -85,8 +84,8 @@ void make_unique(std::vector<Index>& items) {
 }  // namespace
 
 void apply_field(const LayerField& field, CurvedMesh& curved) {
-  set_all(field, curved, counted(curved.topology().edge_count()), counted(curved.topology().face_count()),
-          counted(curved.linear().cell_count()));
+  set_all(field, curved, counted(curved.topology().edge_count()),
+          counted(curved.topology().face_count()), counted(curved.linear().cell_count()));
 }
 
 void apply_field(const LayerField& field, CurvedMesh& curved, const std::vector<Index>& cells) {

@@ -1,6 +1,5 @@
-#include <camber/elevate/blend.hpp>
-
 #include <camber/basis/lagrange.hpp>
+#include <camber/elevate/blend.hpp>
 
 namespace camber {
 namespace {
@@ -8,7 +7,8 @@ namespace {
 /// The edge's displacement at s, walking from its first to its second corner.
 Vec3 edge_value(const LatticeMap& map, std::size_t edge, int q, std::span<const Vec3> u, double s) {
   std::array<double, 8> N{};
-  lagrange_values(Shape::line, q, Vec3(s, 0.0, 0.0), std::span(N.data(), static_cast<std::size_t>(q) + 1));
+  lagrange_values(Shape::line, q, Vec3(s, 0.0, 0.0),
+                  std::span(N.data(), static_cast<std::size_t>(q) + 1));
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < map.edge[edge].size(); ++k) {
     sum += N[k] * u[static_cast<std::size_t>(map.edge[edge][k])];

@@ -10,8 +10,8 @@
 namespace camber {
 namespace {
 
-/// Corner opposite to `corner` along the stacking direction that starts at local face `face`, for every corner
-/// of that face; nothing if the shape has no opposite face there.
+/// Corner opposite to `corner` along the stacking direction that starts at local face `face`, for
+/// every corner of that face; nothing if the shape has no opposite face there.
 std::optional<std::array<int, 4>> opposite_corners(Shape shape, const LocalFace& face) {
   std::array<int, 4> across{-1, -1, -1, -1};
   const bool is_stackable = (shape == Shape::prism && face.shape == Shape::triangle) ||
@@ -26,7 +26,8 @@ std::optional<std::array<int, 4>> opposite_corners(Shape shape, const LocalFace&
   };
   for (const std::array<int, 2>& edge : edges(shape)) {
     if (on_face(edge[0]) == on_face(edge[1])) continue;
-    const int low = on_face(edge[0]) ? edge[0] : edge[1], high = on_face(edge[0]) ? edge[1] : edge[0];
+    const int low = on_face(edge[0]) ? edge[0] : edge[1],
+              high = on_face(edge[0]) ? edge[1] : edge[0];
     for (std::size_t i = 0; i < n; ++i) {
       if (face.corners[i] == low) across[i] = high;
     }

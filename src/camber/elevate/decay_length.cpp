@@ -1,10 +1,9 @@
+#include <camber/base/parallel.hpp>
 #include <camber/elevate/decay_length.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <camber/base/parallel.hpp>
 
 namespace camber {
 namespace {
@@ -57,7 +56,8 @@ std::vector<double> lengths_over_cells(const LinearMesh& mesh, const Topology& t
                                        const Wall& wall) {
   constexpr double k_unset = std::numeric_limits<double>::infinity();
   std::vector<double> length(mesh.vertices.size(), k_unset), height(wall.face_count());
-  for (std::size_t s = 0; s < wall.face_count(); ++s) height[s] = cell_height(mesh, topology, wall, s);
+  for (std::size_t s = 0; s < wall.face_count(); ++s)
+    height[s] = cell_height(mesh, topology, wall, s);
   for_each_corner(topology, wall, [&](Index v, std::size_t s) {
     length[at(v)] = std::min(length[at(v)], height[s]);
   });

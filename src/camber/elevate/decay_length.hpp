@@ -1,9 +1,9 @@
 #pragma once
 // How far the wall's displacement reaches into the volume.
-#include <vector>
-
 #include <camber/elevate/face_tree.hpp>
 #include <camber/elevate/placement.hpp>
+
+#include <vector>
 
 namespace camber {
 
@@ -23,14 +23,15 @@ struct LayerFieldOptions {
 [[nodiscard]] double decay(double s);
 
 /// Decay length L at every wall vertex, 0 elsewhere [length].
-///   layer: L = max(reach * (mean wall edge at the vertex), reach_per_sagitta * (largest |d| around it))
-///   cell:  L = height of the lowest cell on the wall faces around it; the other options do not count
+///   layer: L = max(reach * (mean wall edge at the vertex), reach_per_sagitta * (largest |d| around
+///   it)) cell:  L = height of the lowest cell on the wall faces around it; the other options do
+///   not count
 [[nodiscard]] std::vector<double> decay_lengths(const LinearMesh& mesh, const Topology& topology,
                                                 const Wall& wall, const Placement& placement,
                                                 const LayerFieldOptions& options);
 
-/// Shortens lengths so that the decay ends before the middle between two facing walls. The middle: a ball that
-/// touches the wall at the vertex from inside the fluid is shrunk until it is empty.
+/// Shortens lengths so that the decay ends before the middle between two facing walls. The middle:
+/// a ball that touches the wall at the vertex from inside the fluid is shrunk until it is empty.
 /// Threads: runs parallel inside.
 void limit_lengths_in_gaps(const LinearMesh& mesh, const Wall& wall, const FaceTree& wall_tree,
                            std::vector<double>& length);

@@ -13,8 +13,8 @@ double squared_distance_to_box(const Vec3& x, const Vec3& lower, const Vec3& upp
   return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).squaredNorm();
 }
 
-/// Barycentric coordinates of the point of triangle (a,b,c) nearest to p, region by region (Ericson,
-/// Real-Time Collision Detection, 2005, 5.1.5).
+/// Barycentric coordinates of the point of triangle (a,b,c) nearest to p, region by region
+/// (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
 Vec3 nearest_barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -87,11 +87,12 @@ void FaceTree::build(Index node, Index first, Index count) {
   (centres.upper - centres.lower).maxCoeff(&axis);
   const Index half = count / 2;
   const auto begin = triangles_.begin() + first;
-  std::nth_element(begin, begin + half, begin + count, [axis](const Triangle& a, const Triangle& b) {
-    const double ca = a.x[0][axis] + a.x[1][axis] + a.x[2][axis];
-    const double cb = b.x[0][axis] + b.x[1][axis] + b.x[2][axis];
-    return ca != cb ? ca < cb : a.item < b.item;
-  });
+  std::nth_element(begin, begin + half, begin + count,
+                   [axis](const Triangle& a, const Triangle& b) {
+                     const double ca = a.x[0][axis] + a.x[1][axis] + a.x[2][axis];
+                     const double cb = b.x[0][axis] + b.x[1][axis] + b.x[2][axis];
+                     return ca != cb ? ca < cb : a.item < b.item;
+                   });
   const Index child = static_cast<Index>(nodes_.size());
   nodes_.emplace_back();
   nodes_.emplace_back();

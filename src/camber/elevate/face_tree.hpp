@@ -1,21 +1,21 @@
 #pragma once
 // Closest points on straight boundary faces.
+#include <camber/mesh/topology.hpp>
+
 #include <span>
 #include <vector>
-
-#include <camber/mesh/topology.hpp>
 
 namespace camber {
 
 struct FaceHit {
-  Index item = k_none;       // index into the faces given
-  Vec3 xi = Vec3::Zero();    // reference point on that face, in its frame
+  Index item = k_none;     // index into the faces given
+  Vec3 xi = Vec3::Zero();  // reference point on that face, in its frame
   Vec3 point = Vec3::Zero();
   double distance = 0.0;
 };
 
-/// Bounding-volume tree over linear faces, each of which has a label. Quadrilaterals are two triangles.
-/// Read-only after construction: any number of threads.
+/// Bounding-volume tree over linear faces, each of which has a label. Quadrilaterals are two
+/// triangles. Read-only after construction: any number of threads.
 class FaceTree {
  public:
   FaceTree() = default;
@@ -23,8 +23,8 @@ class FaceTree {
   FaceTree(const LinearMesh& mesh, const Topology& topology, std::span<const Index> faces,
            std::span<const int> labels);
 
-  /// For every label whose nearest face is within `radius` of x: that face. Sorted by distance, ties by
-  /// item.
+  /// For every label whose nearest face is within `radius` of x: that face. Sorted by distance,
+  /// ties by item.
   void nearest_per_label(const Vec3& x, double radius, std::vector<FaceHit>& hits) const;
   /// The nearest of all, if within radius.
   [[nodiscard]] bool nearest(const Vec3& x, double radius, FaceHit& hit) const;

@@ -1,19 +1,19 @@
+#include <camber/basis/lagrange.hpp>
+#include <camber/elevate/blend.hpp>
 #include <camber/elevate/layer_field.hpp>
+#include <camber/elevate/wall_sides.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <camber/basis/lagrange.hpp>
-#include <camber/elevate/blend.hpp>
-#include <camber/elevate/wall_sides.hpp>
 
 namespace camber {
 namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-/// A still patch damps the normal displacement of points nearer to it than this many wall distances.
+/// A still patch damps the normal displacement of points nearer to it than this many wall
+/// distances.
 constexpr double k_damping_range = 2.0;
 
 /// Multilinear weights of the corners (corner order) at xi.
@@ -26,11 +26,16 @@ void vertex_weights(Shape shape, const Vec3& xi, std::span<double> weight) {
 
 }  // namespace
 
-LayerField::LayerField(const LinearMesh& mesh, const Topology& topology, const Association& association,
-                       const Wall& wall, const Placement& placement, const Columns& columns,
-                       const LayerFieldOptions& options)
-    : mesh_(mesh), topology_(topology), association_(association), wall_(wall), placement_(placement),
-      columns_(columns), decay_(options.decay),
+LayerField::LayerField(const LinearMesh& mesh, const Topology& topology,
+                       const Association& association, const Wall& wall, const Placement& placement,
+                       const Columns& columns, const LayerFieldOptions& options)
+    : mesh_(mesh),
+      topology_(topology),
+      association_(association),
+      wall_(wall),
+      placement_(placement),
+      columns_(columns),
+      decay_(options.decay),
       length_(decay_lengths(mesh, topology, wall, placement, options)) {
   const std::vector<int> sides = wall_sides(mesh_, topology_, wall_);
   for (int side : sides) label_count_ = std::max(label_count_, side + 1);
@@ -70,7 +75,8 @@ double LayerField::wall_length(Index slot, const Vec3& xi) const {
   return length;
 }
 
-LayerField::Foot LayerField::foot_of(std::span<const Index> vertices, std::array<Index, 2> column_slots) const {
+LayerField::Foot LayerField::foot_of(std::span<const Index> vertices,
+                                     std::array<Index, 2> column_slots) const {
   Foot foot;
   std::array<Index, 8> base{};
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -87,7 +93,8 @@ LayerField::Foot LayerField::foot_of(std::span<const Index> vertices, std::array
   const auto holds_all = [&](Index slot) {
     if (slot == k_none) return false;
     const std::array<Index, 4>& v = topology_.face2vertex[at(wall_.faces[at(slot)])];
-    return std::all_of(base.begin(), end, [&](Index b) { return std::find(v.begin(), v.end(), b) != v.end(); });
+    return std::all_of(base.begin(), end,
+                       [&](Index b) { return std::find(v.begin(), v.end(), b) != v.end(); });
   };
   Index slot = k_none;
   for (Index candidate : column_slots) {
@@ -107,7 +114,8 @@ LayerField::Foot LayerField::foot_of(std::span<const Index> vertices, std::array
   const std::span<const Vec3> corner_xi = corners(topology_.face_shape[at(f)]);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::array<Index, 4>& v = topology_.face2vertex[at(f)];
-    foot.xi[i] = corner_xi[static_cast<std::size_t>(std::find(v.begin(), v.end(), base[i]) - v.begin())];
+    foot.xi[i] =
+        corner_xi[static_cast<std::size_t>(std::find(v.begin(), v.end(), base[i]) - v.begin())];
   }
   return foot;
 }
@@ -122,7 +130,8 @@ Vec3 LayerField::damped_by_still_patches(const Vec3& x, double wall_distance, co
   return (1.0 - damping) * u;
 }
 
-Vec3 LayerField::displacement(const Vec3& x, int q, const Foot* foot, std::span<const double> weights) const {
+Vec3 LayerField::displacement(const Vec3& x, int q, const Foot* foot,
+                              std::span<const double> weights) const {
   const bool has_column = foot && (foot->is_vertex || foot->slot != k_none);
   Index slot = k_none;
   Vec3 xi = Vec3::Zero();
@@ -146,7 +155,8 @@ Vec3 LayerField::displacement(const Vec3& x, int q, const Foot* foot, std::span<
   } else {
     wall_tree_.nearest_per_label(x, longest_, hits);
   }
-  const int own_label = slot != k_none ? wall_tree_.label(slot) : (hits.empty() ? -1 : wall_tree_.label(hits[0].item));
+  const int own_label = slot != k_none ? wall_tree_.label(slot)
+                                       : (hits.empty() ? -1 : wall_tree_.label(hits[0].item));
   Vec3 sum = Vec3::Zero();
   double total = 0.0, nearest = std::numeric_limits<double>::infinity();
   const auto add = [&](Index s, const Vec3& at_xi, double distance, double l) {

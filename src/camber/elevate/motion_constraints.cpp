@@ -13,8 +13,8 @@ MotionConstraints::MotionConstraints(const LinearMesh& mesh, const Topology& top
     if (own == k_none) {
       const Patch& patch = association.patches[at(p)];
       own = static_cast<Index>(constraints_.size());
-      constraints_.push_back({patch.kind == PatchKind::plane ? Kind::plane : Kind::fixed,
-                              patch.origin, patch.normal});
+      constraints_.push_back(
+          {patch.kind == PatchKind::plane ? Kind::plane : Kind::fixed, patch.origin, patch.normal});
     }
     face_[at(f)] = own;
     for (int i = 0; i < topology.corners_of_face(f); ++i) {
@@ -42,9 +42,12 @@ Vec3 MotionConstraints::move(Index constraint, const Vec3& u) const {
   if (constraint == k_none) return u;
   const Constraint& c = constraints_[at(constraint)];
   switch (c.kind) {
-    case Kind::plane: return u - u.dot(c.a) * c.a;
-    case Kind::line: return u.dot(c.a) * c.a;
-    case Kind::fixed: break;
+    case Kind::plane:
+      return u - u.dot(c.a) * c.a;
+    case Kind::line:
+      return u.dot(c.a) * c.a;
+    case Kind::fixed:
+      break;
   }
   return Vec3::Zero();
 }
@@ -53,9 +56,12 @@ Vec3 MotionConstraints::point(Index constraint, const Vec3& x) const {
   if (constraint == k_none) return x;
   const Constraint& c = constraints_[at(constraint)];
   switch (c.kind) {
-    case Kind::plane: return x - (x - c.origin).dot(c.a) * c.a;
-    case Kind::line: return c.origin + (x - c.origin).dot(c.a) * c.a;
-    case Kind::fixed: break;
+    case Kind::plane:
+      return x - (x - c.origin).dot(c.a) * c.a;
+    case Kind::line:
+      return c.origin + (x - c.origin).dot(c.a) * c.a;
+    case Kind::fixed:
+      break;
   }
   return x;
 }

@@ -1,13 +1,14 @@
 #pragma once
+#include <camber/associate/association.hpp>
+
 #include <cstdint>
 #include <vector>
 
-#include <camber/associate/association.hpp>
-
 namespace camber {
 
-/// How edges and faces of still patches (boundary that is no wall) may move: inside their plane, along the line
-/// of two planes, or not at all. All other edges and faces are free. Const members: any thread.
+/// How edges and faces of still patches (boundary that is no wall) may move: inside their plane,
+/// along the line of two planes, or not at all. All other edges and faces are free. Const members:
+/// any thread.
 class MotionConstraints {
  public:
   MotionConstraints() = default;

@@ -1,11 +1,10 @@
+#include <camber/base/parallel.hpp>
+#include <camber/basis/lagrange.hpp>
 #include <camber/elevate/order_rules.hpp>
 
 #include <algorithm>
 #include <array>
 #include <limits>
-
-#include <camber/base/parallel.hpp>
-#include <camber/basis/lagrange.hpp>
 
 namespace camber {
 namespace {
@@ -18,13 +17,15 @@ constexpr std::size_t k_grain = 1024;
 constexpr double k_still = 0.1;
 
 bool is_still(std::span<const Vec3> u, double allowed) {
-  return std::all_of(u.begin(), u.end(), [&](const Vec3& d) { return d.norm() <= k_still * allowed; });
+  return std::all_of(u.begin(), u.end(),
+                     [&](const Vec3& d) { return d.norm() <= k_still * allowed; });
 }
 
 /// By order p: the lowest order that may stand in for p.
 using StandIn = std::array<std::uint8_t, static_cast<std::size_t>(k_max_order) + 1>;
 
-/// Displacement polynomials of one entity at orders 1..top, all as points on the lattice of order top.
+/// Displacement polynomials of one entity at orders 1..top, all as points on the lattice of order
+/// top.
 class Shapes {
  public:
   Shapes(Shape shape, int top) : shape_(shape), top_(top), n_(sz(node_count(shape, top))) {
@@ -56,7 +57,8 @@ class Shapes {
   [[nodiscard]] double distance(int a, int b) const {
     double largest = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
-      largest = std::max(largest, (points_[sz(a - 1) * n_ + i] - points_[sz(b - 1) * n_ + i]).norm());
+      largest =
+          std::max(largest, (points_[sz(a - 1) * n_ + i] - points_[sz(b - 1) * n_ + i]).norm());
     }
     return largest;
   }
@@ -68,7 +70,8 @@ class Shapes {
 };
 
 /// Full displacement lattice of a face at order q, from the field on its edges and inside.
-void face_lattice(const Topology& topology, const LayerField& field, Index f, int q, std::span<Vec3> u) {
+void face_lattice(const Topology& topology, const LayerField& field, Index f, int q,
+                  std::span<Vec3> u) {
   const Shape shape = topology.face_shape[at(f)];
   const LatticeMap& map = lattice_map(shape, q);
   std::fill(u.begin(), u.end(), Vec3::Zero());
@@ -99,8 +102,8 @@ void request_on_surface(const LinearMesh& mesh, const Topology& topology, const 
     const Index f = wall.faces[s];
     const double length = deviation_length(mesh, topology, f, shortest_edge, options);
     int q = 1;
-    while (q < options.max_order &&
-           placement.face_deviation(static_cast<Index>(s), q).maximum > options.deviation * length) {
+    while (q < options.max_order && placement.face_deviation(static_cast<Index>(s), q).maximum >
+                                        options.deviation * length) {
       ++q;
     }
     raise(requests.face[at(f)], q);
@@ -113,8 +116,8 @@ void request_on_surface(const LinearMesh& mesh, const Topology& topology, const 
   }
   for (std::size_t s = 0; s < wall.edge_count(); ++s) {
     int q = 1;
-    while (q < options.max_order &&
-           placement.edge_deviation(static_cast<Index>(s), q) > options.deviation * edge_length[s]) {
+    while (q < options.max_order && placement.edge_deviation(static_cast<Index>(s), q) >
+                                        options.deviation * edge_length[s]) {
       ++q;
     }
     raise(requests.edge[at(wall.edges[s])], q);
@@ -125,18 +128,36 @@ struct StandIns {
   std::vector<StandIn> edge, face;
 };
 
+/// How far a lower order may stand off inside each cell [length]. Less in the first cells on the
+/// wall: their height is what the user spaced.
+std::vector<double> drop_tolerances(const Topology& topology, const Wall& wall,
+                                    const std::vector<double>& shortest_edge,
+                                    const OrderOptions& options) {
+  std::vector<double> tolerance(shortest_edge.size());
+  for (std::size_t c = 0; c < tolerance.size(); ++c)
+    tolerance[c] = options.volume_deviation * shortest_edge[c];
+  for (Index f : wall.faces) {
+    for (Index c : topology.face2cell[at(f)]) {
+      if (c == k_none) continue;
+      tolerance[at(c)] =
+          std::min(tolerance[at(c)], options.wall_cell_deviation * shortest_edge[at(c)]);
+    }
+  }
+  return tolerance;
+}
+
 StandIns find_stand_ins(const Topology& topology, const LayerField& field,
-                         const std::vector<double>& shortest_edge, const OrderOptions& options) {
+                        const std::vector<double>& tolerance, const OrderOptions& options) {
   const int top = options.max_order;
   const auto allowed = [&](std::span<const Index> cells) {
     double least = std::numeric_limits<double>::infinity();
     for (Index c : cells) {
-      if (c != k_none) least = std::min(least, options.volume_deviation * shortest_edge[at(c)]);
+      if (c != k_none) least = std::min(least, tolerance[at(c)]);
     }
     return least;
   };
   StandIns result{std::vector<StandIn>(topology.edge_count()),
-                   std::vector<StandIn>(topology.face_count())};
+                  std::vector<StandIn>(topology.face_count())};
   parallel_for(topology.edge_count(), k_grain, [&](std::size_t begin, std::size_t end) {
     Shapes shapes(Shape::line, top);
     std::array<Vec3, 8> u;
@@ -173,10 +194,11 @@ StandIns find_stand_ins(const Topology& topology, const LayerField& field,
   return result;
 }
 
-/// Spreads orders from cell to cell, highest first: an entity of a cell of order p that no lower order may stand
-/// in for asks p of all cells that touch it; face neighbours get p - 1 at least.
-void request_in_volume(const Topology& topology, const StandIns& stand_ins, const OrderOptions& options,
-                       OrderRequests& requests, std::vector<std::uint8_t> cell_order) {
+/// Spreads orders from cell to cell, highest first: an entity of a cell of order p that no lower
+/// order may stand in for asks p of all cells that touch it; face neighbours get p - 1 at least.
+void request_in_volume(const Topology& topology, const StandIns& stand_ins,
+                       const OrderOptions& options, OrderRequests& requests,
+                       std::vector<std::uint8_t> cell_order) {
   std::vector<Index> work;
   const auto raise = [&](Index c, int q, int p) {
     if (c == k_none || cell_order[at(c)] >= q) return;
@@ -210,8 +232,10 @@ std::vector<std::uint8_t> cell_orders(const Topology& topology, const OrderReque
                                       std::size_t cell_count, int least) {
   std::vector<std::uint8_t> orders(cell_count, static_cast<std::uint8_t>(least));
   for (Index c = 0; at(c) < cell_count; ++c) {
-    for (Index e : topology.edges_of_cell(c)) orders[at(c)] = std::max(orders[at(c)], requests.edge[at(e)]);
-    for (Index f : topology.faces_of_cell(c)) orders[at(c)] = std::max(orders[at(c)], requests.face[at(f)]);
+    for (Index e : topology.edges_of_cell(c))
+      orders[at(c)] = std::max(orders[at(c)], requests.edge[at(e)]);
+    for (Index f : topology.faces_of_cell(c))
+      orders[at(c)] = std::max(orders[at(c)], requests.face[at(f)]);
   }
   return orders;
 }
@@ -235,7 +259,8 @@ double deviation_length(const LinearMesh& mesh, const Topology& topology, Index 
                         const std::vector<double>& shortest_edge, const OrderOptions& options) {
   double length = std::numeric_limits<double>::infinity();
   switch (options.deviation_length) {
-    case DeviationLength::given: return options.length;
+    case DeviationLength::given:
+      return options.length;
     case DeviationLength::cell:
       for (Index c : topology.face2cell[at(face)]) {
         if (c != k_none) length = std::min(length, shortest_edge[at(c)]);
@@ -243,7 +268,8 @@ double deviation_length(const LinearMesh& mesh, const Topology& topology, Index 
       return length;
     case DeviationLength::face:
       for (int i = 0; i < topology.corners_of_face(face); ++i) {
-        const std::array<Index, 2>& v = topology.edge2vertex[at(topology.face2edge[at(face)][sz(i)])];
+        const std::array<Index, 2>& v =
+            topology.edge2vertex[at(topology.face2edge[at(face)][sz(i)])];
         length = std::min(length, (mesh.vertices[at(v[0])] - mesh.vertices[at(v[1])]).norm());
       }
       return length;
@@ -267,15 +293,18 @@ OrderRequests request_orders(const LinearMesh& mesh, const Topology& topology, c
   };
   requests.by_surface = asking();
   if (options.max_order > 1) {
-    request_in_volume(topology, find_stand_ins(topology, field, shortest_edge, options), options, requests,
-                      cell_orders(topology, requests, mesh.cell_count(), options.min_order));
+    request_in_volume(
+        topology,
+        find_stand_ins(topology, field, drop_tolerances(topology, wall, shortest_edge, options),
+                       options),
+        options, requests, cell_orders(topology, requests, mesh.cell_count(), options.min_order));
   }
   requests.by_volume = asking() - requests.by_surface;
   return requests;
 }
 
-OrderField settle_orders(const LinearMesh& mesh, const Topology& topology, const OrderRequests& requests,
-                         const OrderOptions& options) {
+OrderField settle_orders(const LinearMesh& mesh, const Topology& topology,
+                         const OrderRequests& requests, const OrderOptions& options) {
   std::vector<std::uint8_t> orders =
       cell_orders(topology, requests, mesh.cell_count(), options.min_order);
   // From the highest order down: a raise never touches a level that is already settled.

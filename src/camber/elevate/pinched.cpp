@@ -48,10 +48,11 @@ std::vector<Index> find_pinched_cells(const LinearMesh& mesh, const Topology& to
       }
       if (others > 0 || at_corner.size() < 3) continue;
       for (Index patch : at_corner.front()) {
-        is_pinched = is_pinched ||
-                     (patch != k_none && std::all_of(at_corner.begin(), at_corner.end(), [&](const auto& p) {
-                        return p[0] == patch || p[1] == patch;
-                      }));
+        is_pinched =
+            is_pinched ||
+            (patch != k_none && std::all_of(at_corner.begin(), at_corner.end(), [&](const auto& p) {
+               return p[0] == patch || p[1] == patch;
+             }));
       }
     }
     if (is_pinched) pinched.push_back(c);

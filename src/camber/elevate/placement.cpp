@@ -1,3 +1,6 @@
+#include <camber/base/parallel.hpp>
+#include <camber/basis/lagrange.hpp>
+#include <camber/elevate/blend.hpp>
 #include <camber/elevate/placement.hpp>
 
 #include <algorithm>
@@ -5,16 +8,11 @@
 #include <limits>
 #include <optional>
 
-#include <camber/base/parallel.hpp>
-#include <camber/basis/lagrange.hpp>
-#include <camber/basis/quadrature.hpp>
-#include <camber/elevate/blend.hpp>
-
 namespace camber {
 namespace {
 
-/// A line that meets the CAD this many times farther away than the closest point met another sheet or a
-/// grazing flank.
+/// A line that meets the CAD this many times farther away than the closest point met another sheet
+/// or a grazing flank.
 constexpr double k_line_over_closest = 3.0;
 /// A stretch of a CAD curve longer than this many chords goes the wrong way round.
 constexpr double k_longest_stretch = 4.0;
@@ -24,10 +22,13 @@ constexpr double k_reach = 2.0;
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 /// Parameters of the two ends of a mesh edge on its curve, the short way round on closed curves.
-std::optional<std::array<double, 2>> stretch_on_curve(Projector& projector, const GeometryModel& model,
-                                                      int curve, const Vec3& a, const Vec3& b) {
-  const Projection foot_a = projector.closest({1, curve}, a), foot_b = projector.closest({1, curve}, b);
-  if (foot_a.status == ProjectionStatus::failed || foot_b.status == ProjectionStatus::failed) return {};
+std::optional<std::array<double, 2>> stretch_on_curve(Projector& projector,
+                                                      const GeometryModel& model, int curve,
+                                                      const Vec3& a, const Vec3& b) {
+  const Projection foot_a = projector.closest({1, curve}, a),
+                   foot_b = projector.closest({1, curve}, b);
+  if (foot_a.status == ProjectionStatus::failed || foot_b.status == ProjectionStatus::failed)
+    return {};
   const GeometryModel::CurveRange range = model.range(curve);
   const Vec3 first = projector.evaluate_curve(curve, range.first).point;
   const Vec3 last = projector.evaluate_curve(curve, range.last).point;
@@ -68,9 +69,10 @@ Vec3 direction_at(Shape shape, std::span<const Vec3> normal, const Vec3& xi) {
   return direction;
 }
 
-/// How far the nodes of order q slide along the wall before they are moved across it: what the edges slid (on
-/// CAD curves, in planes), carried inside. Only what order q adds to `lower`, the slide at order q - 1, is
-/// blended: blending is not polynomial, and all of it at once would cost an order of convergence.
+/// How far the nodes of order q slide along the wall before they are moved across it: what the
+/// edges slid (on CAD curves, in planes), carried inside. Only what order q adds to `lower`, the
+/// slide at order q - 1, is blended: blending is not polynomial, and all of it at once would cost
+/// an order of convergence.
 /// @param moved  displacements on the lattice of order q; those of the edges are read
 Points slid_inwards(Shape shape, int q, std::span<const Vec3> normal, const Points& lower,
                     std::span<const Vec3> moved) {
@@ -97,37 +99,15 @@ Points slid_inwards(Shape shape, int q, std::span<const Vec3> normal, const Poin
 
 }  // namespace
 
-Deviation measure_face(Projector& projector, const GeometryGroup& group, Shape shape, int q,
-                       std::span<const Vec3> nodes, const WallCorner* seed) {
-  const Quadrature& rule = sixth_order(shape);
-  Deviation deviation;
-  GeomEntity entity = seed ? seed->face : GeomEntity{};
-  Vec2 uv = seed ? seed->uv : Vec2::Zero();
-  for (std::size_t g = 0; g < rule.points.size(); ++g) {
-    const Vec3 x = evaluate(shape, q, nodes, rule.points[g]);
-    const Mat3 J = jacobian(shape, q, nodes, rule.points[g]);
-    Projection foot;
-    if (group.size() == 1 && entity == group.front()) {
-      foot = projector.closest(entity, x, uv);
-    } else {
-      foot = project_to_group(projector, group, x);
-    }
-    if (foot.status != ProjectionStatus::failed) {
-      entity = foot.entity;
-      uv = foot.uv;
-    }
-    const double distance = foot.status == ProjectionStatus::failed ? 0.0 : foot.distance;
-    const double area = rule.weights[g] * J.col(0).cross(J.col(1)).norm();
-    deviation.maximum = std::max(deviation.maximum, distance);
-    deviation.integral += distance * area;
-    deviation.area += area;
-  }
-  return deviation;
-}
-
-Placement::Placement(const LinearMesh& mesh, const Topology& topology, const Association& association,
-                     const GeometryModel& model, const Wall& wall, int max_order)
-    : mesh_(mesh), topology_(topology), association_(association), model_(model), wall_(wall), max_order_(max_order) {
+Placement::Placement(const LinearMesh& mesh, const Topology& topology,
+                     const Association& association, const GeometryModel& model, const Wall& wall,
+                     int max_order)
+    : mesh_(mesh),
+      topology_(topology),
+      association_(association),
+      model_(model),
+      wall_(wall),
+      max_order_(max_order) {
   for (int q = 2; q <= max_order_; ++q) {
     edge_nodes_[sz(q)].resize(wall_.edge_count() * sz(q - 1));
     edge_displacement_[sz(q)].assign(wall_.edge_count() * sz(q + 1), Vec3::Zero());
@@ -172,11 +152,13 @@ std::span<const Vec3> Placement::edge_displacement(Index slot, int q) const {
 }
 std::span<const Vec3> Placement::face_nodes(Index slot, int q) const {
   const std::vector<Index>& offset = face_node_offset_[sz(q)];
-  return {face_nodes_[sz(q)].data() + offset[at(slot)], at(offset[at(slot) + 1] - offset[at(slot)])};
+  return {face_nodes_[sz(q)].data() + offset[at(slot)],
+          at(offset[at(slot) + 1] - offset[at(slot)])};
 }
 std::span<const Vec3> Placement::face_displacement(Index slot, int q) const {
   const std::vector<Index>& offset = face_displacement_offset_[sz(q)];
-  return {face_displacement_[sz(q)].data() + offset[at(slot)], at(offset[at(slot) + 1] - offset[at(slot)])};
+  return {face_displacement_[sz(q)].data() + offset[at(slot)],
+          at(offset[at(slot) + 1] - offset[at(slot)])};
 }
 
 Vec3 Placement::onto_patch(Projector& projector, Index patch, const Vec3& x, const Vec3& direction,
@@ -190,12 +172,14 @@ Vec3 Placement::onto_patch(Projector& projector, Index patch, const Vec3& x, con
     const Projection foot = projector.closest(face, x, uv);
     if (foot.status == ProjectionStatus::failed) continue;
     if (foot.distance < nearest.distance) nearest = foot;
-    const std::optional<Projection> hit = projector.along_line(face.tag, x, direction, reach, foot.uv);
+    const std::optional<Projection> hit =
+        projector.along_line(face.tag, x, direction, reach, foot.uv);
     if (hit && (!crossing || hit->distance < crossing->distance)) crossing = hit;
   }
   is_placed = nearest.status != ProjectionStatus::failed && nearest.distance <= reach;
   if (!is_placed) return x;
-  if (crossing && crossing->distance <= k_line_over_closest * nearest.distance) return crossing->point;
+  if (crossing && crossing->distance <= k_line_over_closest * nearest.distance)
+    return crossing->point;
   return nearest.point;
 }
 
@@ -223,7 +207,9 @@ void Placement::place_edge(Projector& projector, Index slot) {
     if (wall_.corners[at(c)].vertex == v[0]) corner_a = &wall_.corners[at(c)];
     if (wall_.corners[at(c)].vertex == v[1]) corner_b = &wall_.corners[at(c)];
   }
-  const Patch* plane = plane_of_edge_[at(slot)] == k_none ? nullptr : &association_.patches[at(plane_of_edge_[at(slot)])];
+  const Patch* plane = plane_of_edge_[at(slot)] == k_none
+                           ? nullptr
+                           : &association_.patches[at(plane_of_edge_[at(slot)])];
 
   std::array<Projection, k_orders> on_curve;
   for (int q = 2; q <= max_order_; ++q) {
@@ -232,7 +218,8 @@ void Placement::place_edge(Projector& projector, Index slot) {
     if (stretch) {
       std::array<double, k_orders> fraction{};
       for (int i = 1; i < q; ++i) fraction[sz(i - 1)] = static_cast<double>(i) / q;
-      projector.divide_curve(curve.tag, (*stretch)[0], (*stretch)[1], std::span(fraction.data(), sz(q - 1)),
+      projector.divide_curve(curve.tag, (*stretch)[0], (*stretch)[1],
+                             std::span(fraction.data(), sz(q - 1)),
                              std::span(on_curve.data(), sz(q - 1)));
     }
     for (int i = 1; i < q; ++i) {
@@ -245,7 +232,8 @@ void Placement::place_edge(Projector& projector, Index slot) {
         Vec3 direction = (1.0 - s) * corner_a->normal + s * corner_b->normal;
         if (plane) direction -= direction.dot(plane->normal) * plane->normal;
         bool is_placed = false;
-        x = onto_patch(projector, patch, straight, direction, k_reach * (b - a).norm(), corner_a, is_placed);
+        x = onto_patch(projector, patch, straight, direction, k_reach * (b - a).norm(), corner_a,
+                       is_placed);
         if (plane) x -= (x - plane->origin).dot(plane->normal) * plane->normal;
         if (!is_placed) edge_unplaced_[at(slot)] = 1;
       }
@@ -291,10 +279,12 @@ void Placement::set_face(Index slot, int q, std::span<const Vec3> nodes) {
   const Shape shape = topology_.face_shape[at(f)];
   const std::size_t n = sz(topology_.corners_of_face(f));
   std::array<Vec3, 4> corner;
-  for (std::size_t i = 0; i < n; ++i) corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
+  for (std::size_t i = 0; i < n; ++i)
+    corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
   const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
-  const std::span<Vec3> moved{face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
-                              straight.size()};
+  const std::span<Vec3> moved{
+      face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
+      straight.size()};
   copy_edges_to_face(slot, q, moved);
   const std::span<const int> inner = interior_nodes(shape, q);
   for (std::size_t k = 0; k < inner.size(); ++k) {
@@ -315,178 +305,33 @@ void Placement::place_face(Projector& projector, Index slot) {
     corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
     wall_corner[i] = &wall_.corners[at(wall_.face_corners[at(slot)][i])];
   }
-  for (std::size_t i = 0; i < n; ++i) longest = std::max(longest, (corner[i] - corner[(i + 1) % n]).norm());
+  for (std::size_t i = 0; i < n; ++i)
+    longest = std::max(longest, (corner[i] - corner[(i + 1) % n]).norm());
   std::array<Vec3, 4> normal;
   for (std::size_t i = 0; i < n; ++i) normal[i] = wall_corner[i]->normal;
 
   Points slide;  // of the order before
   for (int q = 2; q <= max_order_; ++q) {
     const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
-    const std::span<Vec3> moved{face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
-                                sz(node_count(shape, q))};
+    const std::span<Vec3> moved{
+        face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
+        sz(node_count(shape, q))};
     const std::span<Vec3> nodes{face_nodes_[sz(q)].data() + face_node_offset_[sz(q)][at(slot)],
                                 interior_nodes(shape, q).size()};
     copy_edges_to_face(slot, q, moved);
     slide = slid_inwards(shape, q, std::span(normal.data(), n), slide, moved);
     std::size_t k = 0;
     for (int node : interior_nodes(shape, q)) {
-      const Vec3 direction = direction_at(shape, std::span(normal.data(), n), lattice_xi(shape, q)[sz(node)]);
+      const Vec3 direction =
+          direction_at(shape, std::span(normal.data(), n), lattice_xi(shape, q)[sz(node)]);
       bool is_placed = false;
       const Vec3 start = straight[sz(node)] + slide[sz(node)];
-      const Vec3 x = onto_patch(projector, patch, start, direction, k_reach * longest, wall_corner[0], is_placed);
+      const Vec3 x = onto_patch(projector, patch, start, direction, k_reach * longest,
+                                wall_corner[0], is_placed);
       if (!is_placed) face_unplaced_[at(slot)] = 1;
       nodes[k++] = x;
       moved[sz(node)] = x - straight[sz(node)];
     }
-  }
-}
-
-std::vector<Index> Placement::lower(const std::vector<std::pair<Index, int>>& caps) {
-  std::vector<Index> edges, changed;
-  for (const auto& [slot, wanted] : caps) {
-    const std::uint8_t cap = static_cast<std::uint8_t>(std::max(1, wanted));
-    if (face_cap_[at(slot)] <= cap) continue;
-    face_cap_[at(slot)] = cap;
-    changed.push_back(slot);
-    const Index f = wall_.faces[at(slot)];
-    for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-      const Index e = topology_.face2edge[at(f)][sz(i)], edge = wall_.edge_slot[at(e)];
-      if (association_.edge2curve[at(e)].dim == 1 && cap > 1) continue;
-      if (edge_cap_[at(edge)] <= cap) continue;
-      edge_cap_[at(edge)] = cap;
-      edges.push_back(edge);
-    }
-  }
-  for (Index edge : edges) {
-    cap_edge(edge);
-    for (Index slot : wall_.edge_faces[at(edge)]) {
-      if (slot != k_none) changed.push_back(slot);
-    }
-  }
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  const std::unique_ptr<Projector> projector = model_.projector();
-  for (Index slot : changed) {
-    place_face(*projector, slot);
-    cap_face(slot);
-  }
-  return changed;
-}
-
-void Placement::cap_edge(Index slot) {
-  const int cap = edge_cap_[at(slot)];
-  const std::array<Index, 2>& v = topology_.edge2vertex[at(wall_.edges[at(slot)])];
-  const Vec3 &a = mesh_.vertices[at(v[0])], &b = mesh_.vertices[at(v[1])];
-  for (int q = cap + 1; q <= max_order_; ++q) {
-    const std::span<Vec3> moved{edge_displacement_[sz(q)].data() + at(slot) * sz(q + 1), sz(q + 1)};
-    const std::span<Vec3> nodes{edge_nodes_[sz(q)].data() + at(slot) * sz(q - 1), sz(q - 1)};
-    const MatX& elevate = elevation_matrix(Shape::line, cap, q);
-    for (int i = 1; i < q; ++i) {
-      Vec3 u = Vec3::Zero();
-      for (int k = 0; k <= cap && cap > 1; ++k) u += elevate(i, k) * edge_displacement(slot, cap)[sz(k)];
-      const double s = static_cast<double>(i) / q;
-      moved[sz(i)] = u;
-      nodes[sz(i - 1)] = (1.0 - s) * a + s * b + u;
-    }
-  }
-}
-
-/// Above its cap a face is the cap's polynomial plus what its edges do beyond that, blended inwards.
-void Placement::cap_face(Index slot) {
-  const int cap = face_cap_[at(slot)];
-  const Index f = wall_.faces[at(slot)];
-  const Shape shape = topology_.face_shape[at(f)];
-  const std::size_t n = sz(topology_.corners_of_face(f));
-  std::array<Vec3, 4> corner;
-  for (std::size_t i = 0; i < n; ++i) corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
-  for (int q = cap + 1; q <= max_order_; ++q) {
-    const std::span<Vec3> moved{face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
-                                sz(node_count(shape, q))};
-    const std::span<Vec3> nodes{face_nodes_[sz(q)].data() + face_node_offset_[sz(q)][at(slot)],
-                                interior_nodes(shape, q).size()};
-    Points low(moved.size(), Vec3::Zero());
-    if (cap > 1) {
-      const MatX& elevate = elevation_matrix(shape, cap, q);
-      const std::span<const Vec3> capped = face_displacement(slot, cap);
-      for (std::size_t r = 0; r < low.size(); ++r) {
-        for (std::size_t c = 0; c < capped.size(); ++c) {
-          low[r] += elevate(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) * capped[c];
-        }
-      }
-    }
-    Points beyond(moved.size(), Vec3::Zero());
-    copy_edges_to_face(slot, q, beyond);
-    for (const std::vector<int>& edge : lattice_map(shape, q).edge_interior) {
-      for (int node : edge) beyond[sz(node)] -= low[sz(node)];
-    }
-    blend_face_interior(shape, q, beyond);
-    const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
-    std::size_t k = 0;
-    for (int node : interior_nodes(shape, q)) {
-      moved[sz(node)] = low[sz(node)] + beyond[sz(node)];
-      nodes[k++] = straight[sz(node)] + moved[sz(node)];
-    }
-  }
-}
-
-void Placement::measure() {
-  for (int q = 1; q <= max_order_; ++q) {
-    face_deviation_[sz(q)].resize(wall_.face_count());
-    edge_deviation_[sz(q)].assign(wall_.edge_count(), 0.0);
-  }
-  parallel_for_with(
-      wall_.face_count(), 32, [&] { return model_.projector(); },
-      [&](std::size_t begin, std::size_t end, std::unique_ptr<Projector>& projector) {
-        for (std::size_t s = begin; s < end; ++s) measure_slot(*projector, static_cast<Index>(s));
-      });
-  parallel_for_with(
-      wall_.edge_count(), 64, [&] { return model_.projector(); },
-      [&](std::size_t begin, std::size_t end, std::unique_ptr<Projector>& projector) {
-        for (std::size_t s = begin; s < end; ++s) measure_edge(*projector, static_cast<Index>(s));
-      });
-  for (const Points& moved : {edge_displacement_[sz(max_order_)], face_displacement_[sz(max_order_)]}) {
-    for (const Vec3& d : moved) largest_ = std::max(largest_, d.norm());
-  }
-}
-
-void Placement::measure_slot(Projector& projector, Index slot) {
-  const Index f = wall_.faces[at(slot)];
-  const Shape shape = topology_.face_shape[at(f)];
-  const std::size_t n = sz(topology_.corners_of_face(f));
-  const GeometryGroup& group = association_.patches[at(association_.face2patch[at(f)])].group;
-  std::array<Vec3, 4> corner;
-  for (std::size_t i = 0; i < n; ++i) corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
-  for (int q = 1; q <= max_order_; ++q) {
-    Points nodes = straight_nodes(shape, q, std::span(corner.data(), n));
-    if (q > 1) {
-      const std::span<const Vec3> moved = face_displacement(slot, q);
-      for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += moved[i];
-    }
-    face_deviation_[sz(q)][at(slot)] = measure_face(projector, group, shape, q, nodes,
-                                                   &wall_.corners[at(wall_.face_corners[at(slot)][0])]);
-  }
-}
-
-void Placement::measure_edge(Projector& projector, Index slot) {
-  const Index e = wall_.edges[at(slot)];
-  const GeomEntity curve = association_.edge2curve[at(e)];
-  if (curve.dim != 1) return;
-  const Vec3 &a = mesh_.vertices[at(topology_.edge2vertex[at(e)][0])],
-             &b = mesh_.vertices[at(topology_.edge2vertex[at(e)][1])];
-  for (int q = 1; q <= max_order_; ++q) {
-    std::array<Vec3, 8> nodes;
-    for (int i = 0; i <= q; ++i) {
-      const double s = static_cast<double>(i) / q;
-      nodes[sz(i)] = (1.0 - s) * a + s * b;
-      if (q > 1) nodes[sz(i)] += edge_displacement(slot, q)[sz(i)];
-    }
-    double farthest = 0.0;
-    for (const Vec3& xi : sixth_order(Shape::line).points) {
-      const Vec3 x = evaluate(Shape::line, q, std::span(nodes.data(), sz(q + 1)), xi);
-      const Projection foot = projector.closest(curve, x);
-      if (foot.status != ProjectionStatus::failed) farthest = std::max(farthest, foot.distance);
-    }
-    edge_deviation_[sz(q)][at(slot)] = farthest;
   }
 }
 

@@ -1,12 +1,13 @@
 #pragma once
-// High-order wall nodes on the CAD, for every order that may be asked, and how far each order misses.
+// High-order wall nodes on the CAD, for every order that may be asked, and how far each order
+// misses.
+#include <camber/elevate/wall.hpp>
+#include <camber/mesh/curved_mesh.hpp>
+
 #include <array>
 #include <span>
 #include <utility>
 #include <vector>
-
-#include <camber/elevate/wall.hpp>
-#include <camber/mesh/curved_mesh.hpp>
 
 namespace camber {
 
@@ -17,11 +18,12 @@ struct Deviation {
   double area = 0.0;
 };
 
-/// Wall nodes at orders 2..max_order. Edge nodes: on their CAD curve, evenly in arc length; else where the
-/// line through the straight node along the interpolated corner normals meets the patch's CAD (closest point as
-/// fallback; inside the plane where the edge borders a planar patch without CAD). Face nodes: the same,
-/// from the straight node moved by what its edges slid along the wall. (numerics: directional projection keeps faces that
-/// turn by 90 degrees valid where closest points fold.)
+/// Wall nodes at orders 2..max_order. Edge nodes: on their CAD curve, evenly in arc length; else
+/// where the line through the straight node along the interpolated corner normals meets the patch's
+/// CAD (closest point as fallback; inside the plane where the edge borders a planar patch without
+/// CAD). Face nodes: the same, from the straight node moved by what its edges slid along the wall.
+/// (numerics: directional projection keeps faces that turn by 90 degrees valid where closest points
+/// fold.)
 class Placement {
  public:
   Placement(const LinearMesh& mesh, const Topology& topology, const Association& association,
@@ -31,18 +33,20 @@ class Placement {
   /// Own (interior) nodes in the entity's frame; q = 2..max_order.
   [[nodiscard]] std::span<const Vec3> edge_nodes(Index slot, int q) const;
   [[nodiscard]] std::span<const Vec3> face_nodes(Index slot, int q) const;
-  /// Displacement of all lattice nodes from the straight wall (ends and corners included, zero there).
+  /// Displacement of all lattice nodes from the straight wall (ends and corners included, zero
+  /// there).
   [[nodiscard]] std::span<const Vec3> edge_displacement(Index slot, int q) const;
   [[nodiscard]] std::span<const Vec3> face_displacement(Index slot, int q) const;
 
-  /// Replaces the own nodes of an edge or face at order q (they must lie on the CAD). After edges were changed
-  /// the faces on them must be set too, or their displacement keeps the old edge.
+  /// Replaces the own nodes of an edge or face at order q (they must lie on the CAD). After edges
+  /// were changed the faces on them must be set too, or their displacement keeps the old edge.
   void set_edge(Index slot, int q, std::span<const Vec3> nodes);
   void set_face(Index slot, int q, std::span<const Vec3> nodes);
 
-  /// Caps the order of shape of some faces (slots): above its cap a face's nodes are those of the cap's
-  /// polynomial, elevated. Caps only fall. Their edges inside a patch follow; edges on CAD curves only when the cap reaches 1
-  /// (straight). Faces that share a changed edge are placed again.
+  /// Caps the order of shape of some faces (slots): above its cap a face's nodes are those of the
+  /// cap's polynomial, elevated. Caps only fall. Their edges inside a patch follow; edges on CAD
+  /// curves only when the cap reaches 1 (straight). Faces that share a changed edge are placed
+  /// again.
   /// @return slots of all faces whose nodes changed, sorted
   std::vector<Index> lower(const std::vector<std::pair<Index, int>>& caps);
   /// Highest order of shape the face may have (max_order unless lowered).
@@ -58,7 +62,8 @@ class Placement {
   }
   /// Largest displacement of any node of the edge / face at max_order.
   [[nodiscard]] double largest_displacement() const { return largest_; }
-  /// Entities with a node for which neither line nor closest point gave an answer (it stays straight).
+  /// Entities with a node for which neither line nor closest point gave an answer (it stays
+  /// straight).
   [[nodiscard]] bool is_edge_unplaced(Index slot) const { return edge_unplaced_[at(slot)] != 0; }
   [[nodiscard]] bool is_face_unplaced(Index slot) const { return face_unplaced_[at(slot)] != 0; }
 
@@ -74,8 +79,9 @@ class Placement {
   void copy_edges_to_face(Index slot, int q, std::span<Vec3> moved) const;
   void cap_edge(Index slot);
   void cap_face(Index slot);
-  [[nodiscard]] Vec3 onto_patch(Projector& projector, Index patch, const Vec3& x, const Vec3& direction,
-                                double reach, const WallCorner* seed, bool& is_placed) const;
+  [[nodiscard]] Vec3 onto_patch(Projector& projector, Index patch, const Vec3& x,
+                                const Vec3& direction, double reach, const WallCorner* seed,
+                                bool& is_placed) const;
 
   static constexpr std::size_t k_orders = static_cast<std::size_t>(k_max_order) + 1;
   const LinearMesh& mesh_;
@@ -95,9 +101,9 @@ class Placement {
   std::vector<Index> plane_of_edge_;  // edge slot -> patch of kind `plane` on its other side, or -1
 };
 
-/// Deviation of a curved face from its group at the sixth-order Gauss points. nodes: canonical order of
-/// the face's shape, order q. Areas are those of the curved face.
-[[nodiscard]] Deviation measure_face(Projector& projector, const GeometryGroup& group, Shape shape, int q,
-                                     std::span<const Vec3> nodes, const WallCorner* seed);
+/// Deviation of a curved face from its group at the sixth-order Gauss points. nodes: canonical
+/// order of the face's shape, order q. Areas are those of the curved face.
+[[nodiscard]] Deviation measure_face(Projector& projector, const GeometryGroup& group, Shape shape,
+                                     int q, std::span<const Vec3> nodes, const WallCorner* seed);
 
 }  // namespace camber

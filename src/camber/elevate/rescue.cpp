@@ -1,9 +1,8 @@
+#include <camber/base/parallel.hpp>
 #include <camber/elevate/rescue.hpp>
 
 #include <algorithm>
 #include <array>
-
-#include <camber/base/parallel.hpp>
 
 namespace camber {
 namespace {
@@ -15,7 +14,9 @@ constexpr int k_halvings = 5;
 class Reducer {
  public:
   explicit Reducer(CurvedMesh& curved)
-      : curved_(curved), topology_(curved.topology()), straight_(curved.linear(), topology_, curved.orders()) {
+      : curved_(curved),
+        topology_(curved.topology()),
+        straight_(curved.linear(), topology_, curved.orders()) {
     halvings_[0].assign(topology_.edge_count(), 0);
     halvings_[1].assign(topology_.face_count(), 0);
     halvings_[2].assign(curved.linear().cell_count(), 0);
@@ -42,7 +43,8 @@ class Reducer {
       }
     }
     for (Index c : cells) {
-      if (halve(halvings_[2][at(c)], curved_.cell_nodes(c), straight_.cell_nodes(c))) touched.push_back(c);
+      if (halve(halvings_[2][at(c)], curved_.cell_nodes(c), straight_.cell_nodes(c)))
+        touched.push_back(c);
     }
     make_unique(touched);
     return touched;
@@ -76,7 +78,8 @@ class Reducer {
 
 }  // namespace
 
-std::vector<Index> uncertified_cells(const CurvedMesh& curved, const std::vector<Index>& candidates) {
+std::vector<Index> uncertified_cells(const CurvedMesh& curved,
+                                     const std::vector<Index>& candidates) {
   std::vector<std::uint8_t> is_bad(candidates.size(), 0);
   parallel_for(candidates.size(), 64, [&](std::size_t begin, std::size_t end) {
     Points nodes;
@@ -100,7 +103,8 @@ RescueResult scale_back(CurvedMesh& curved, const std::vector<Index>& uncertifie
   if (uncertified.empty()) return result;
   Reducer reducer(curved);
   std::vector<Index> bad = uncertified, all = uncertified;
-  // Ends: every pass reduces entities of all bad cells, which no entity allows for ever.
+  // Ends: an entity is reduced only so often, and a pass that reduces nothing has no cell to test
+  // again.
   while (!bad.empty()) {
     ++result.passes;
     bad = uncertified_cells(curved, reducer.reduce(bad));

@@ -1,14 +1,13 @@
+#include <camber/base/parallel.hpp>
 #include <camber/elevate/wall.hpp>
 
 #include <algorithm>
 
-#include <camber/base/parallel.hpp>
-
 namespace camber {
 namespace {
 
-/// A CAD normal that differs from the facets by more than this (cosine) is not believed: the foot point
-/// lies on a fold, a pole or a wrong sheet.
+/// A CAD normal that differs from the facets by more than this (cosine) is not believed: the foot
+/// point lies on a fold, a pole or a wrong sheet.
 constexpr double k_least_agreement = 0.2;
 
 /// A plane is a wall if most cells on it are lower than this share of their face's shortest edge.
@@ -37,20 +36,22 @@ bool is_stacking_face(const LinearMesh& mesh, const Topology& topology, Index f)
          (cell == Shape::hexahedron && topology.face_shape[at(f)] == Shape::quadrilateral);
 }
 
-/// How a plane meets the curved walls around it: edges shared, and those where one cell has both faces
-/// (layers that end on the plane).
+/// How a plane meets the curved walls around it: edges shared, and those where one cell has both
+/// faces (layers that end on the plane).
 struct PlaneEdges {
   std::size_t shared = 0, lateral = 0;
 };
 
-std::vector<PlaneEdges> count_plane_edges(const Topology& topology, const Association& association) {
+std::vector<PlaneEdges> count_plane_edges(const Topology& topology,
+                                          const Association& association) {
   std::vector<std::array<Index, 2>> cell_on_edge(topology.edge_count(), {k_none, k_none});
   std::vector<PlaneEdges> count(association.patches.size());
   for (Index f = 0; at(f) < topology.face_count(); ++f) {
     const Patch* patch = association.patch_of(f);
     if (!patch || patch->kind != PatchKind::cad) continue;
     for (int i = 0; i < topology.corners_of_face(f); ++i) {
-      std::array<Index, 2>& cells = cell_on_edge[at(topology.face2edge[at(f)][static_cast<std::size_t>(i)])];
+      std::array<Index, 2>& cells =
+          cell_on_edge[at(topology.face2edge[at(f)][static_cast<std::size_t>(i)])];
       (cells[0] == k_none ? cells[0] : cells[1]) = topology.face2cell[at(f)][0];
     }
   }
@@ -184,8 +185,9 @@ Wall build_wall(const LinearMesh& mesh, const Topology& topology, const Associat
         for (std::size_t i = begin; i < end; ++i) {
           WallCorner& corner = wall.corners[i];
           const Vec3 facets = average[i].normalized();
-          const Projection foot = project_to_group(
-              *projector, association.patches[at(corner.patch)].group, mesh.vertices[at(corner.vertex)]);
+          const Projection foot =
+              project_to_group(*projector, association.patches[at(corner.patch)].group,
+                               mesh.vertices[at(corner.vertex)]);
           corner.face = foot.entity;
           corner.uv = foot.uv;
           corner.normal = facets;

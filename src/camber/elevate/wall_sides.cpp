@@ -6,8 +6,8 @@
 namespace camber {
 namespace {
 
-/// Two walls whose CAD normals differ by more than this (cosine of 30 degrees) across a concave edge are
-/// different walls to the field.
+/// Two walls whose CAD normals differ by more than this (cosine of 30 degrees) across a concave
+/// edge are different walls to the field.
 constexpr double k_sharp_cosine = 0.866;
 
 Index root_of(std::vector<Index>& parent, Index i) {

@@ -1,11 +1,10 @@
+#include <camber/base/assert.hpp>
+#include <camber/base/parallel.hpp>
+#include <camber/basis/lagrange.hpp>
 #include <camber/mesh/curved_mesh.hpp>
 
 #include <algorithm>
 #include <utility>
-
-#include <camber/base/assert.hpp>
-#include <camber/base/parallel.hpp>
-#include <camber/basis/lagrange.hpp>
 
 namespace camber {
 namespace {
@@ -96,7 +95,8 @@ void CurvedMesh::straighten() {
       for (std::size_t i = 0; i < n; ++i) corner[i] = vertex(t.face2vertex[f][i]);
       const Points all = straight_nodes(shape, orders_.face[f], std::span(corner.data(), n));
       const std::vector<int>& inner = lattice_map(shape, orders_.face[f]).interior;
-      for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = all[static_cast<std::size_t>(inner[i])];
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        nodes[i] = all[static_cast<std::size_t>(inner[i])];
     }
   });
   parallel_for(mesh_->cell_count(), k_grain, [&](std::size_t begin, std::size_t end) {
@@ -106,7 +106,8 @@ void CurvedMesh::straighten() {
       if (nodes.empty()) continue;
       gather_straight(static_cast<Index>(c), orders_.cell[c], all);
       const std::vector<int>& inner = lattice_map(mesh_->cell_shape[c], orders_.cell[c]).interior;
-      for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = all[static_cast<std::size_t>(inner[i])];
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        nodes[i] = all[static_cast<std::size_t>(inner[i])];
     }
   });
 }
@@ -124,7 +125,8 @@ void CurvedMesh::edge_lattice(Index e, int q, std::span<Vec3> points) const {
     std::copy_n(stored.begin(), r + 1, points.begin());
     return;
   }
-  apply(elevation_matrix(Shape::line, r, q), std::span(stored.data(), static_cast<std::size_t>(r) + 1),
+  apply(elevation_matrix(Shape::line, r, q),
+        std::span(stored.data(), static_cast<std::size_t>(r) + 1),
         points.first(static_cast<std::size_t>(q) + 1));
   points[0] = stored[0];
   points[static_cast<std::size_t>(q)] = stored[static_cast<std::size_t>(r)];
@@ -149,7 +151,8 @@ void CurvedMesh::face_lattice(Index f, int q, std::span<Vec3> points) const {
     // Local edge i of a triangle or quadrilateral joins corners i and i+1.
     const std::vector<int>& slots = map.edge_interior[s];
     for (std::size_t k = 0; k < slots.size(); ++k) {
-      full[static_cast<std::size_t>(slots[k])] = line[reversed ? static_cast<std::size_t>(r) - 1 - k : k + 1];
+      full[static_cast<std::size_t>(slots[k])] =
+          line[reversed ? static_cast<std::size_t>(r) - 1 - k : k + 1];
     }
   }
   const std::span<const Vec3> inner = face_nodes(f);

@@ -1,26 +1,29 @@
 #pragma once
 // A mixed-order mesh: one order a cell, nodes owned by edges, faces and cells.
+#include <camber/mesh/linear_mesh.hpp>
+#include <camber/mesh/topology.hpp>
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <camber/mesh/linear_mesh.hpp>
-#include <camber/mesh/topology.hpp>
-
 namespace camber {
 
 /// Orders of all entities. An edge or face has the minimum over the cells that touch it, so that
-/// neighbours of different order see one polynomial on their common entity: watertight by construction.
+/// neighbours of different order see one polynomial on their common entity: watertight by
+/// construction.
 struct OrderField {
   std::vector<std::uint8_t> cell, face, edge;
 };
 /// Entity orders from cell orders by the minimum rule.
-[[nodiscard]] OrderField minimum_rule(const Topology& topology, std::vector<std::uint8_t> cell_orders);
+[[nodiscard]] OrderField minimum_rule(const Topology& topology,
+                                      std::vector<std::uint8_t> cell_orders);
 
-/// Nodes of a mixed-order mesh. Holds references to the linear mesh and its topology, which must outlive
-/// it. Only nodes above order 1 are stored: p-1 an edge, the interior lattice nodes of faces (in the
-/// face's frame) and cells. Reading from several threads is safe; writing to different entities too.
+/// Nodes of a mixed-order mesh. Holds references to the linear mesh and its topology, which must
+/// outlive it. Only nodes above order 1 are stored: p-1 an edge, the interior lattice nodes of
+/// faces (in the face's frame) and cells. Reading from several threads is safe; writing to
+/// different entities too.
 class CurvedMesh {
  public:
   /// All entities straight, of the given orders.
@@ -42,10 +45,12 @@ class CurvedMesh {
   [[nodiscard]] std::span<const Vec3> face_nodes(Index f) const { return own(face_offset_, f); }
   [[nodiscard]] std::span<const Vec3> cell_nodes(Index c) const { return own(cell_offset_, c); }
 
-  /// Points of the entity's polynomial at the order-q lattice, q >= its own order, in its own frame.
+  /// Points of the entity's polynomial at the order-q lattice, q >= its own order, in its own
+  /// frame.
   void edge_lattice(Index e, int q, std::span<Vec3> points) const;  // q + 1
   void face_lattice(Index f, int q, std::span<Vec3> points) const;  // node_count(face shape, q)
-  /// The element's Lagrange nodes of order q >= cell_order(c), canonical order: the same polynomial.
+  /// The element's Lagrange nodes of order q >= cell_order(c), canonical order: the same
+  /// polynomial.
   void gather(Index c, int q, Points& nodes) const;
   /// The same for the straight copy.
   void gather_straight(Index c, int q, Points& nodes) const;
@@ -54,10 +59,12 @@ class CurvedMesh {
 
  private:
   [[nodiscard]] std::span<Vec3> own(const std::vector<std::int64_t>& offset, Index i) {
-    return {nodes_.data() + offset[at(i)], static_cast<std::size_t>(offset[at(i) + 1] - offset[at(i)])};
+    return {nodes_.data() + offset[at(i)],
+            static_cast<std::size_t>(offset[at(i) + 1] - offset[at(i)])};
   }
   [[nodiscard]] std::span<const Vec3> own(const std::vector<std::int64_t>& offset, Index i) const {
-    return {nodes_.data() + offset[at(i)], static_cast<std::size_t>(offset[at(i) + 1] - offset[at(i)])};
+    return {nodes_.data() + offset[at(i)],
+            static_cast<std::size_t>(offset[at(i) + 1] - offset[at(i)])};
   }
   void allocate();
   void straighten();

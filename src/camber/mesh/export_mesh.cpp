@@ -1,3 +1,4 @@
+#include <camber/base/error.hpp>
 #include <camber/mesh/export_mesh.hpp>
 
 #include <algorithm>
@@ -8,21 +9,22 @@
 
 #include <fmt/format.h>
 
-#include <camber/base/error.hpp>
-
 namespace camber {
 namespace {
 
 constexpr std::size_t k_orders = static_cast<std::size_t>(k_max_order) + 1;
 
-/// File nodes of one kind of entity (edges, faces, cells) by order: first[q][i] is the first point of entity
-/// i at order q, or -1.
+/// File nodes of one kind of entity (edges, faces, cells) by order: first[q][i] is the first point
+/// of entity i at order q, or -1.
 using FirstPoint = std::array<std::vector<Index>, k_orders>;
 
 class Exporter {
  public:
   Exporter(const CurvedMesh& curved, int uniform_order)
-      : curved_(curved), mesh_(curved.linear()), topology_(curved.topology()), uniform_(uniform_order) {}
+      : curved_(curved),
+        mesh_(curved.linear()),
+        topology_(curved.topology()),
+        uniform_(uniform_order) {}
 
   MeshData run(ExportMap* map) {
     collect_regions();
@@ -40,13 +42,16 @@ class Exporter {
   }
 
  private:
-  [[nodiscard]] int order_of(Index c) const { return uniform_ > 0 ? uniform_ : curved_.cell_order(c); }
+  [[nodiscard]] int order_of(Index c) const {
+    return uniform_ > 0 ? uniform_ : curved_.cell_order(c);
+  }
   [[nodiscard]] int entity_of(Index c) const {
     return entity_tag_.at({mesh_.cell_region[at(c)], order_of(c)});
   }
   [[nodiscard]] int patch_order(Index f) const { return order_of(topology_.face2cell[at(f)][0]); }
 
-  /// A region with one order keeps its tag; else region * 10 + order, or * 100, ... until no tag clashes.
+  /// A region with one order keeps its tag; else region * 10 + order, or * 100, ... until no tag
+  /// clashes.
   void collect_regions() {
     std::map<int, std::set<int>> orders;
     for (Index c = 0; at(c) < mesh_.cell_count(); ++c) {
@@ -160,10 +165,12 @@ class Exporter {
       for (Index c = 0; at(c) < mesh_.cell_count(); ++c) {
         if (cell_[q][at(c)] == k_none) continue;
         cell_[q][at(c)] = static_cast<Index>(data_.points.size());
-        const std::vector<int>& inner = lattice_map(mesh_.cell_shape[at(c)], static_cast<int>(q)).interior;
+        const std::vector<int>& inner =
+            lattice_map(mesh_.cell_shape[at(c)], static_cast<int>(q)).interior;
         if (inner.empty()) continue;
         curved_.gather(c, static_cast<int>(q), nodes);
-        for (int n : inner) add_point(nodes[static_cast<std::size_t>(n)], {3, entity_of(c)}, next_tag_++);
+        for (int n : inner)
+          add_point(nodes[static_cast<std::size_t>(n)], {3, entity_of(c)}, next_tag_++);
       }
     }
   }
@@ -215,7 +222,8 @@ class Exporter {
     if (p < 2) return;
     const std::span<const Index> cell_edges = topology_.edges_of_cell(c);
     for (std::size_t i = 0; i < cell_edges.size(); ++i) {
-      const bool reversed = topology_.cell2edge_reversed[at(topology_.cell2edge_offset[at(c)]) + i] != 0;
+      const bool reversed =
+          topology_.cell2edge_reversed[at(topology_.cell2edge_offset[at(c)]) + i] != 0;
       put_edge(cell_edges[i], p, reversed, map.edge_interior[i], nodes);
     }
     const std::span<const Index> cell_faces = topology_.faces_of_cell(c);
@@ -278,13 +286,15 @@ class Exporter {
     for (std::size_t w = 0; w < views.size(); ++w) {
       bool same = true;
       for (std::size_t i = 0; i < n; ++i) {
-        same = same && viewer[i] == topology_.face2vertex[at(f)][static_cast<std::size_t>(views[w][i])];
+        same = same &&
+               viewer[i] == topology_.face2vertex[at(f)][static_cast<std::size_t>(views[w][i])];
       }
       if (same) return static_cast<int>(w);
     }
-    throw MeshError("a surface quadrilateral walks its corners differently from its cell",
-                    mesh_.entity_name({2, mesh_.patch_face_entity[at(topology_.face2patch_face[at(f)])]}),
-                    "repair the surface element");
+    throw MeshError(
+        "a surface quadrilateral walks its corners differently from its cell",
+        mesh_.entity_name({2, mesh_.patch_face_entity[at(topology_.face2patch_face[at(f)])]}),
+        "repair the surface element");
   }
 
   /// A line takes the lowest order at which its edge is written: one that a neighbouring cell has.
@@ -306,7 +316,8 @@ class Exporter {
         nodes[0] = a;
         nodes[stride - 1] = b;
         if (key.second > 1) {
-          const Index first = edge_[static_cast<std::size_t>(key.second)][at(topology_.find_edge(a, b))];
+          const Index first =
+              edge_[static_cast<std::size_t>(key.second)][at(topology_.find_edge(a, b))];
           for (std::size_t k = 1; k + 1 < stride; ++k) {
             nodes[k] = first + static_cast<Index>(a < b ? k - 1 : stride - 2 - k);
           }
@@ -322,7 +333,8 @@ class Exporter {
   void write_entities() {
     data_.physical_names = mesh_.physical_names;
     std::set<EntityKey> present;
-    for (const ElementBlock& block : data_.blocks) present.insert({dimension(block.shape), block.entity});
+    for (const ElementBlock& block : data_.blocks)
+      present.insert({dimension(block.shape), block.entity});
     for (const EntityKey& key : data_.point_entity) present.insert(key);
     for (const EntityKey& key : present) {
       EntityRecord record;
@@ -370,8 +382,9 @@ MeshData export_mesh(const CurvedMesh& curved, int uniform_order, ExportMap* map
     int highest = 1;
     for (std::uint8_t p : curved.orders().cell) highest = std::max(highest, static_cast<int>(p));
     if (uniform_order < highest || uniform_order > k_max_order) {
-      throw OptionError(fmt::format("uniform order {} is not possible", uniform_order), "--uniform",
-                        fmt::format("the mesh holds order {}; choose {}..{}", highest, highest, k_max_order));
+      throw OptionError(
+          fmt::format("uniform order {} is not possible", uniform_order), "--uniform",
+          fmt::format("the mesh holds order {}; choose {}..{}", highest, highest, k_max_order));
     }
   }
   return Exporter(curved, uniform_order).run(map);

@@ -1,14 +1,13 @@
+#include <camber/base/error.hpp>
+#include <camber/base/parallel.hpp>
 #include <camber/mesh/linear_mesh.hpp>
+#include <camber/mesh/sew.hpp>
+#include <camber/validity/element_validity.hpp>
 
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
-
-#include <camber/base/error.hpp>
-#include <camber/base/parallel.hpp>
-#include <camber/mesh/sew.hpp>
-#include <camber/validity/element_validity.hpp>
 
 namespace camber {
 namespace {
@@ -16,8 +15,9 @@ namespace {
 void append_block(const ElementBlock& block, LinearMesh& mesh) {
   const int corner_total = corner_count(block.shape);
   const int stride = block.shape == Shape::point ? 1 : node_count(block.shape, block.order);
-  const std::vector<int> corner =
-      block.shape == Shape::point ? std::vector<int>{0} : lattice_map(block.shape, block.order).corner;
+  const std::vector<int> corner = block.shape == Shape::point
+                                      ? std::vector<int>{0}
+                                      : lattice_map(block.shape, block.order).corner;
   const int dim = dimension(block.shape);
   const std::size_t count = block.size();
   for (std::size_t e = 0; e < count; ++e) {
@@ -116,13 +116,14 @@ void refuse_inverted_cells(const LinearMesh& mesh, const std::string& source) {
     for (Index v : mesh.cell(static_cast<Index>(c))) centre += mesh.vertices[at(v)];
     centre /= static_cast<double>(mesh.cell(static_cast<Index>(c)).size());
     list += fmt::format("{}{} {} at ({:.6g}, {:.6g}, {:.6g})", listed ? "; " : "",
-                        name(mesh.cell_shape[c]), mesh.cell_tags[c], centre.x(), centre.y(), centre.z());
+                        name(mesh.cell_shape[c]), mesh.cell_tags[c], centre.x(), centre.y(),
+                        centre.z());
     ++listed;
   }
-  throw MeshError(
-      fmt::format("{} of {} linear cells are inverted or degenerate: {}{}", bad, n, list,
-                  bad > 10 ? "; ..." : ""),
-      source, "curving starts from a valid linear mesh: repair these cells in the mesher");
+  throw MeshError(fmt::format("{} of {} linear cells are inverted or degenerate: {}{}", bad, n,
+                              list, bad > 10 ? "; ..." : ""),
+                  source,
+                  "curving starts from a valid linear mesh: repair these cells in the mesher");
 }
 
 }  // namespace
@@ -132,8 +133,9 @@ std::string LinearMesh::entity_name(EntityKey key) const {
     if (record.key == key && !record.name.empty()) return record.name;
   }
   constexpr std::array<const char*, 4> kind{"vertex", "curve", "surface", "volume"};
-  return fmt::format("{} {}", key.dim >= 0 && key.dim < 4 ? kind[static_cast<std::size_t>(key.dim)] : "entity",
-                     key.tag);
+  return fmt::format(
+      "{} {}", key.dim >= 0 && key.dim < 4 ? kind[static_cast<std::size_t>(key.dim)] : "entity",
+      key.tag);
 }
 
 LinearMesh build_linear_mesh(const MeshData& data) {
@@ -153,16 +155,18 @@ LinearMesh build_linear_mesh(const MeshData& data) {
   mesh.cell_offset.push_back(0);
   for (const ElementBlock& block : data.blocks) {
     if (block.order > 1 && dimension(block.shape) == 3) {
-      throw MeshError(fmt::format("the mesh is already curved: it holds {} elements of order {}",
-                                  name(block.shape), block.order),
-                      data.source,
-                      "give the linear mesh, or straighten this one with: camber convert IN OUT --order 1");
+      throw MeshError(
+          fmt::format("the mesh is already curved: it holds {} elements of order {}",
+                      name(block.shape), block.order),
+          data.source,
+          "give the linear mesh, or straighten this one with: camber convert IN OUT --order 1");
     }
     append_block(block, mesh);
   }
   if (mesh.cell_shape.empty()) {
-    throw MeshError("the mesh has no volume cells (tet, pyramid, prism, hex)", data.source,
-                    "export the volume mesh; in Gmsh put it in a physical group or set Mesh.SaveAll=1");
+    throw MeshError(
+        "the mesh has no volume cells (tet, pyramid, prism, hex)", data.source,
+        "export the volume mesh; in Gmsh put it in a physical group or set Mesh.SaveAll=1");
   }
   mesh.sewn_vertices = sew_coincident_vertices(mesh);
   drop_unused_vertices(mesh);

@@ -1,12 +1,12 @@
 #pragma once
 // The user's linear hybrid mesh, immutable once read.
+#include <camber/base/ids.hpp>
+#include <camber/mesh/mesh_data.hpp>
+
 #include <array>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <camber/base/ids.hpp>
-#include <camber/mesh/mesh_data.hpp>
 
 namespace camber {
 
@@ -48,9 +48,11 @@ struct LinearMesh {
   [[nodiscard]] std::string entity_name(EntityKey key) const;
 };
 
-/// Makes the linear mesh and checks that it can be curved: volume cells present, corners only (order 1),
-/// every cell certified positive. Parts that touch without sharing vertices are sewn (sew.hpp).
-/// @throws MeshError listing the first ten inverted or degenerate cells with number, shape and centre.
+/// Makes the linear mesh and checks that it can be curved: volume cells present, corners only
+/// (order 1), every cell certified positive. Parts that touch without sharing vertices are sewn
+/// (sew.hpp).
+/// @throws MeshError listing the first ten inverted or degenerate cells with number, shape and
+/// centre.
 [[nodiscard]] LinearMesh build_linear_mesh(const MeshData& data);
 
 }  // namespace camber

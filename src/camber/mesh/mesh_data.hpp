@@ -1,12 +1,12 @@
 #pragma once
-// What is in a mesh file, format-neutral: readers give it, writers take it. Elements may be curved and
-// of different orders. No topology, no CAD, no decisions.
-#include <string>
-#include <vector>
-
+// What is in a mesh file, format-neutral: readers give it, writers take it. Elements may be curved
+// and of different orders. No topology, no CAD, no decisions.
 #include <camber/base/ids.hpp>
 #include <camber/base/vec.hpp>
 #include <camber/basis/lattice.hpp>
+
+#include <string>
+#include <vector>
 
 namespace camber {
 
@@ -23,12 +23,13 @@ struct ElementBlock {
   Shape shape = Shape::point;
   int order = 1;
   int entity = 0;            // tag of the entity of dimension(shape)
-  std::vector<Index> nodes;  // element after element, node_count(shape, order) each, CANONICAL lattice
-                             // order (node_order.hpp), indices into MeshData::points
+  std::vector<Index> nodes;  // element after element, node_count(shape, order) each, CANONICAL
+                             // lattice order (node_order.hpp), indices into MeshData::points
   std::vector<GlobalId> tags;  // element numbers of the file; may be empty
 
   [[nodiscard]] std::size_t size() const {
-    return nodes.size() / static_cast<std::size_t>(shape == Shape::point ? 1 : node_count(shape, order));
+    return nodes.size() /
+           static_cast<std::size_t>(shape == Shape::point ? 1 : node_count(shape, order));
   }
 };
 
@@ -36,7 +37,7 @@ struct EntityRecord {
   EntityKey key;
   std::string name;  // first physical name, "" if none
   std::vector<int> physical_tags;
-  Box box;           // as stated by the file; may be empty
+  Box box;  // as stated by the file; may be empty
 };
 
 struct PhysicalName {
@@ -54,7 +55,7 @@ struct Field {
 struct MeshData {
   std::string source;  // path it came from, for messages
   Points points;
-  std::vector<GlobalId> point_tags;    // numbers of the file; empty means i + 1
+  std::vector<GlobalId> point_tags;     // numbers of the file; empty means i + 1
   std::vector<EntityKey> point_entity;  // classification, one per point; may be empty
   std::vector<Vec2> point_parameters;   // (t,0) or (u,v); NaN where absent; may be empty
   std::vector<ElementBlock> blocks;

@@ -1,3 +1,4 @@
+#include <camber/base/by_key.hpp>
 #include <camber/mesh/sew.hpp>
 
 #include <algorithm>
@@ -5,8 +6,6 @@
 #include <numeric>
 #include <tuple>
 #include <vector>
-
-#include <camber/base/by_key.hpp>
 
 namespace camber {
 namespace {
@@ -54,8 +53,9 @@ std::vector<std::uint8_t> vertices_of_loose_faces(const LinearMesh& mesh) {
   std::vector<CornerKey> listed;
   for (std::size_t b = 0; b < mesh.patch_face_shape.size(); ++b) {
     const std::size_t n = mesh.patch_face_shape[b] == Shape::triangle ? 3 : 4;
-    listed.push_back(corner_key(std::vector<Index>(
-        mesh.patch_face_vertices[b].begin(), mesh.patch_face_vertices[b].begin() + static_cast<std::ptrdiff_t>(n))));
+    listed.push_back(corner_key(
+        std::vector<Index>(mesh.patch_face_vertices[b].begin(),
+                           mesh.patch_face_vertices[b].begin() + static_cast<std::ptrdiff_t>(n))));
   }
   std::sort(listed.begin(), listed.end());
   const std::vector<CornerKey> keys = face_keys_of_cells(mesh);

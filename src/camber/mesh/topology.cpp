@@ -1,10 +1,9 @@
+#include <camber/base/error.hpp>
 #include <camber/mesh/topology.hpp>
 
 #include <algorithm>
 
 #include <fmt/format.h>
-
-#include <camber/base/error.hpp>
 
 namespace camber {
 namespace {
@@ -24,8 +23,8 @@ bool precedes(const Occurrence& a, const Occurrence& b) {
 /// Corners of a face in its frame, from any cyclic listing.
 std::array<Index, 4> frame_of(std::span<const Index> corners) {
   const std::size_t n = corners.size();
-  const std::size_t start = static_cast<std::size_t>(
-      std::min_element(corners.begin(), corners.end()) - corners.begin());
+  const std::size_t start =
+      static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) - corners.begin());
   const Index next = corners[(start + 1) % n], previous = corners[(start + n - 1) % n];
   std::array<Index, 4> frame{-1, -1, -1, -1};
   for (std::size_t i = 0; i < n; ++i) {
@@ -48,7 +47,8 @@ std::vector<std::array<int, 4>> make_views(int n) {
   return views;
 }
 
-std::uint8_t view_of(Shape shape, std::span<const Index> viewer, const std::array<Index, 4>& frame) {
+std::uint8_t view_of(Shape shape, std::span<const Index> viewer,
+                     const std::array<Index, 4>& frame) {
   const std::span<const std::array<int, 4>> views = face_views(shape);
   for (std::size_t w = 0; w < views.size(); ++w) {
     bool same = true;
@@ -101,7 +101,8 @@ void build_edges(const LinearMesh& mesh, Topology& topology) {
 [[noreturn]] void refuse_shared_face(const LinearMesh& mesh, Index a, Index b, Index c) {
   throw MeshError(fmt::format("cells {}, {} and {} share one face", mesh.cell_tags[at(a)],
                               mesh.cell_tags[at(b)], mesh.cell_tags[at(c)]),
-                  "mesh topology", "a face may have at most two cells: remove the duplicate or overlapping cell");
+                  "mesh topology",
+                  "a face may have at most two cells: remove the duplicate or overlapping cell");
 }
 
 void build_faces(const LinearMesh& mesh, Topology& topology) {
@@ -135,10 +136,11 @@ void build_faces(const LinearMesh& mesh, Topology& topology) {
     topology.cell2face[at(here.slot)] = static_cast<Index>(topology.face_shape.size() - 1);
     const std::uint8_t view = view_of(face.shape, used(v, face.shape), topology.face2vertex.back());
     if (view == 0xff) {
-      throw MeshError(fmt::format("cells {} and {} share four vertices but walk the face differently",
-                                  mesh.cell_tags[at(topology.face2cell.back()[0])],
-                                  mesh.cell_tags[at(here.cell)]),
-                      "mesh topology", "the quadrilateral face is twisted: repair these cells");
+      throw MeshError(
+          fmt::format("cells {} and {} share four vertices but walk the face differently",
+                      mesh.cell_tags[at(topology.face2cell.back()[0])],
+                      mesh.cell_tags[at(here.cell)]),
+          "mesh topology", "the quadrilateral face is twisted: repair these cells");
     }
     topology.cell2face_view[at(here.slot)] = view;
   }
@@ -167,11 +169,11 @@ void link_patch_faces(const LinearMesh& mesh, Topology& topology) {
     const auto found = std::lower_bound(by_key.begin(), by_key.end(), std::pair{key, Index{-1}});
     if (found == by_key.end() || found->first != key) {
       const Vec3& x = mesh.vertices[at(key.v[0])];
-      throw MeshError(fmt::format("a {} of {} is not a face of any cell",
-                                  name(mesh.patch_face_shape[b]),
-                                  mesh.entity_name({2, mesh.patch_face_entity[b]})),
-                      fmt::format("near ({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()),
-                      "surface and volume mesh do not belong together: export them from one run");
+      throw MeshError(
+          fmt::format("a {} of {} is not a face of any cell", name(mesh.patch_face_shape[b]),
+                      mesh.entity_name({2, mesh.patch_face_entity[b]})),
+          fmt::format("near ({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()),
+          "surface and volume mesh do not belong together: export them from one run");
     }
     const std::size_t f = at(found->second);
     const std::span<const Index> walk = used(mesh.patch_face_vertices[b], mesh.patch_face_shape[b]);
@@ -219,7 +221,8 @@ std::span<const int> face_view_nodes(Shape shape, int view, int p) {
     for (int order = 1; order <= k_max_tested_order; ++order) {
       for (const std::array<int, 4>& v : face_views(s)) {
         const std::size_t n = s == Shape::triangle ? 3 : 4;
-        table[static_cast<std::size_t>(order)].push_back(reorient(s, order, std::span(v.data(), n)));
+        table[static_cast<std::size_t>(order)].push_back(
+            reorient(s, order, std::span(v.data(), n)));
       }
     }
     return table;

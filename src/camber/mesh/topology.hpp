@@ -1,18 +1,18 @@
 #pragma once
 // Edges and faces of the linear mesh, with their orientation as seen from the cells.
+#include <camber/base/by_key.hpp>
+#include <camber/mesh/linear_mesh.hpp>
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <camber/base/by_key.hpp>
-#include <camber/mesh/linear_mesh.hpp>
-
 namespace camber {
 
-/// Every edge and face once. An edge runs from its smaller to its larger vertex. A face starts at its
-/// smallest vertex and goes round towards the smaller of that vertex's two neighbours: the frame in which
-/// its nodes are stored.
+/// Every edge and face once. An edge runs from its smaller to its larger vertex. A face starts at
+/// its smallest vertex and goes round towards the smaller of that vertex's two neighbours: the
+/// frame in which its nodes are stored.
 struct Topology {
   std::vector<std::array<Index, 2>> edge2vertex;
   std::vector<Shape> face_shape;
@@ -23,7 +23,8 @@ struct Topology {
   std::vector<Index> cell2edge_offset, cell2edge;  // local edges of shape.hpp
   std::vector<std::uint8_t> cell2edge_reversed;    // local edge runs against the stored one
   std::vector<Index> cell2face_offset, cell2face;  // local faces of shape.hpp
-  std::vector<std::uint8_t> cell2face_view;        // index into face_views(): local corner -> frame corner
+  std::vector<std::uint8_t>
+      cell2face_view;  // index into face_views(): local corner -> frame corner
 
   std::vector<Index> edge2cell_offset, edge2cell;
 
@@ -52,12 +53,13 @@ struct Topology {
   [[nodiscard]] Index find_edge(Index a, Index b) const;
 };
 
-/// @throws MeshError if a face has more than two cells, a surface element is no face of any cell, or a
+/// @throws MeshError if a face has more than two cells, a surface element is no face of any cell,
+/// or a
 ///         quadrilateral's corners are walked differently by those who share it.
 [[nodiscard]] Topology build_topology(const LinearMesh& mesh);
 
-/// The views of a face: view w maps corner i of the viewer to corner face_view(shape, w)[i] of the frame.
-/// Triangle 6 views, quadrilateral 8.
+/// The views of a face: view w maps corner i of the viewer to corner face_view(shape, w)[i] of the
+/// frame. Triangle 6 views, quadrilateral 8.
 [[nodiscard]] std::span<const std::array<int, 4>> face_views(Shape shape);
 /// The node permutations that belong to them: result[n] = frame node at the viewer's node n.
 [[nodiscard]] std::span<const int> face_view_nodes(Shape shape, int view, int p);

@@ -1,4 +1,11 @@
+#include <camber/associate/cad_scale.hpp>
+#include <camber/base/error.hpp>
+#include <camber/elevate/apply_field.hpp>
+#include <camber/elevate/pinched.hpp>
+#include <camber/elevate/rescue.hpp>
 #include <camber/pipeline/curve.hpp>
+#include <camber/pipeline/ladder.hpp>
+#include <camber/pipeline/summary.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -6,14 +13,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-
-#include <camber/associate/cad_scale.hpp>
-#include <camber/base/error.hpp>
-#include <camber/elevate/apply_field.hpp>
-#include <camber/elevate/pinched.hpp>
-#include <camber/elevate/rescue.hpp>
-#include <camber/pipeline/ladder.hpp>
-#include <camber/pipeline/summary.hpp>
 
 namespace camber {
 namespace {
@@ -39,7 +38,9 @@ class Stopwatch {
     stages_.emplace_back(stage_, seconds);
     stage_ = nullptr;
   }
-  [[nodiscard]] const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
+  [[nodiscard]] const std::vector<std::pair<std::string, double>>& stages() const {
+    return stages_;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -49,17 +50,20 @@ class Stopwatch {
 };
 
 void refuse_bad_orders(const OrderOptions& orders) {
-  if (orders.min_order < 1 || orders.max_order > k_max_order || orders.min_order > orders.max_order) {
-    throw OptionError(fmt::format("orders from {} to {} are not possible", orders.min_order, orders.max_order),
-                      "--order, --min-order", fmt::format("choose 1 <= lowest <= highest <= {}", k_max_order));
+  if (orders.min_order < 1 || orders.max_order > k_max_order ||
+      orders.min_order > orders.max_order) {
+    throw OptionError(
+        fmt::format("orders from {} to {} are not possible", orders.min_order, orders.max_order),
+        "--order, --min-order", fmt::format("choose 1 <= lowest <= highest <= {}", k_max_order));
   }
   if (!(orders.deviation > 0.0)) {
-    throw OptionError(fmt::format("a deviation of {:g} cannot be reached", orders.deviation), "--deviation",
-                      "give a positive share of the length, 0.01 to 0.05 as a rule");
+    throw OptionError(fmt::format("a deviation of {:g} cannot be reached", orders.deviation),
+                      "--deviation", "give a positive share of the length, 0.01 to 0.05 as a rule");
   }
   if (orders.deviation_length == DeviationLength::given && !(orders.length > 0.0)) {
-    throw OptionError(fmt::format("the deviation cannot be measured against a length of {:g}", orders.length),
-                      "--deviation-length", "give a positive length in the unit of the mesh");
+    throw OptionError(
+        fmt::format("the deviation cannot be measured against a length of {:g}", orders.length),
+        "--deviation-length", "give a positive length in the unit of the mesh");
   }
 }
 
@@ -93,7 +97,8 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   LayerFieldOptions layer = options.layer;
   if (options.propagation == Propagation::cell) layer.decay = Decay::cell;
   const LayerField field(mesh, topology, result.association, wall, placement, columns, layer);
-  const OrderRequests requests = request_orders(mesh, topology, wall, placement, field, options.orders);
+  const OrderRequests requests =
+      request_orders(mesh, topology, wall, placement, field, options.orders);
   OrderField orders = settle_orders(mesh, topology, requests, options.orders);
 
   watch.next("propagate");
@@ -112,7 +117,8 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   watch.next("rescue");
   progress("rescue", 0.8);
   const std::vector<Index> pinched = find_pinched_cells(mesh, topology, result.association, wall);
-  const LadderResult ladder = climb(*result.curved, result.association, geometry, placement, field, wall, columns, pinched, uncertified);
+  const LadderResult ladder = climb(*result.curved, result.association, geometry, placement, field,
+                                    wall, columns, pinched, uncertified);
 
   watch.next("measure");
   progress("measure", 0.9);
@@ -129,7 +135,8 @@ MeshData exported(const CurveResult& result, const CurveOptions& options) {
   MeshData data = export_mesh(*result.curved, options.uniform ? options.orders.max_order : 0, &map);
   const std::size_t n = map.cell.size();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Field order{"order", std::vector<double>(n, nan)}, bound{"scaled_jacobian", std::vector<double>(n, nan)};
+  Field order{"order", std::vector<double>(n, nan)},
+      bound{"scaled_jacobian", std::vector<double>(n, nan)};
   Field cost{"cost", std::vector<double>(n, nan)}, patch{"patch", std::vector<double>(n, nan)};
   Field deviation{"deviation", std::vector<double>(n, nan)};
   const Topology& topology = *result.topology;
@@ -141,9 +148,10 @@ MeshData exported(const CurveResult& result, const CurveOptions& options) {
       cost.values[i] = result.cell_cost[at(c)];
     } else if (f != k_none) {
       order.values[i] = result.curved->face_order(f);
-      patch.values[i] = result.association.face2patch[at(f)] == k_none
-                            ? nan
-                            : result.association.patches[at(result.association.face2patch[at(f)])].entity;
+      patch.values[i] =
+          result.association.face2patch[at(f)] == k_none
+              ? nan
+              : result.association.patches[at(result.association.face2patch[at(f)])].entity;
       deviation.values[i] = result.face_deviation[at(f)];
       const Index behind = topology.face2cell[at(f)][0];
       bound.values[i] = result.cell_bound[at(behind)];

@@ -1,11 +1,11 @@
 #pragma once
 // The main job, in the order of the paper's Fig. 1.
-#include <memory>
-
 #include <camber/base/progress.hpp>
 #include <camber/mesh/export_mesh.hpp>
 #include <camber/pipeline/options.hpp>
 #include <camber/pipeline/report.hpp>
+
+#include <memory>
 
 namespace camber {
 
@@ -17,17 +17,18 @@ struct CurveResult {
   Association association;
   std::vector<double> cell_bound;  // certified scaled Jacobian
   std::vector<double> cell_cost;   // minimum of C, eq. (2)
-  std::vector<double> face_deviation;  // by topology face: largest Gauss-point distance (NaN off the CAD)
+  std::vector<double>
+      face_deviation;  // by topology face: largest Gauss-point distance (NaN off the CAD)
   Report report;
 };
 
 /// Curves a linear mesh onto the CAD its entity tags refer to. The geometry's scale may be changed.
 /// @throws MeshError, GeometryError, OptionError; Cancelled through progress
-[[nodiscard]] CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
-                                const Progress& progress = {});
+[[nodiscard]] CurveResult curve(const MeshData& data, GeometryModel& geometry,
+                                const CurveOptions& options, const Progress& progress = {});
 
-/// The mesh to write (mixed, or uniform as the options say) with the fields order, scaled_jacobian, cost,
-/// patch, deviation.
+/// The mesh to write (mixed, or uniform as the options say) with the fields order, scaled_jacobian,
+/// cost, patch, deviation.
 [[nodiscard]] MeshData exported(const CurveResult& result, const CurveOptions& options);
 
 }  // namespace camber

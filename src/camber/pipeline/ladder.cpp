@@ -1,9 +1,8 @@
+#include <camber/elevate/apply_field.hpp>
 #include <camber/pipeline/ladder.hpp>
+#include <camber/pipeline/wall_repair.hpp>
 
 #include <algorithm>
-
-#include <camber/elevate/apply_field.hpp>
-#include <camber/pipeline/wall_repair.hpp>
 
 namespace camber {
 namespace {
@@ -13,10 +12,10 @@ void make_unique(std::vector<Index>& items) {
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
-/// Wall faces that the cells stand on: the foot of their column or their own faces on the wall; for a cell
-/// without either, the wall faces at the feet of its vertices.
-std::vector<Index> feet(const LinearMesh& mesh, const Topology& topology, const Wall& wall, const Columns& columns,
-                        const std::vector<Index>& cells) {
+/// Wall faces that the cells stand on: the foot of their column or their own faces on the wall; for
+/// a cell without either, the wall faces at the feet of its vertices.
+std::vector<Index> feet(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
+                        const Columns& columns, const std::vector<Index>& cells) {
   std::vector<Index> slots;
   std::vector<std::uint8_t> is_foot(mesh.vertices.size(), 0);
   bool has_loose = false;
@@ -45,10 +44,12 @@ std::vector<Index> feet(const LinearMesh& mesh, const Topology& topology, const 
   return slots;
 }
 
-/// Splits off the cells that moving volume nodes cannot mend: those on a wall face whose first cell is bad (the
-/// wall nodes themselves are misplaced), everything over such a face, and pinched cells.
-std::vector<Index> take_wall_faults(const Topology& topology, const Wall& wall, const Columns& columns,
-                                    const std::vector<Index>& pinched, std::vector<Index>& bad) {
+/// Splits off the cells that moving volume nodes cannot mend: those on a wall face whose first cell
+/// is bad (the wall nodes themselves are misplaced), everything over such a face, and pinched
+/// cells.
+std::vector<Index> take_wall_faults(const Topology& topology, const Wall& wall,
+                                    const Columns& columns, const std::vector<Index>& pinched,
+                                    std::vector<Index>& bad) {
   std::vector<std::uint8_t> is_fault(wall.face_count(), 0);
   for (Index c : bad) {
     const Index slot = columns.cell_face_slot[at(c)];
@@ -92,7 +93,8 @@ std::vector<Index> cells_over(const LinearMesh& mesh, const Topology& topology, 
 
 LadderResult climb(CurvedMesh& curved, const Association& association, const GeometryModel& model,
                    Placement& placement, const LayerField& field, const Wall& wall,
-                   const Columns& columns, const std::vector<Index>& pinched, const std::vector<Index>& uncertified) {
+                   const Columns& columns, const std::vector<Index>& pinched,
+                   const std::vector<Index>& uncertified) {
   LadderResult result;
   result.uncertified_at_start = uncertified.size();
   result.pinched = pinched;
@@ -123,7 +125,8 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     result.wall_faces_smoothed += changed.size();
     for (Index slot : slots) {
       if (std::binary_search(changed.begin(), changed.end(), slot)) continue;
-      caps.emplace_back(slot, std::min(placement.face_cap(slot), curved.face_order(wall.faces[at(slot)])) - 1);
+      caps.emplace_back(
+          slot, std::min(placement.face_cap(slot), curved.face_order(wall.faces[at(slot)])) - 1);
     }
     const std::vector<Index> lowered = placement.lower(caps);
     changed.insert(changed.end(), lowered.begin(), lowered.end());

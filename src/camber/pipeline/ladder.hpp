@@ -1,31 +1,34 @@
 #pragma once
 // From a carried start to a mesh in which every cell is certified.
-#include <vector>
-
 #include <camber/elevate/columns.hpp>
 #include <camber/elevate/layer_field.hpp>
 #include <camber/elevate/rescue.hpp>
 #include <camber/smooth/patch.hpp>
 
+#include <vector>
+
 namespace camber {
 
 struct LadderResult {
   std::size_t uncertified_at_start = 0;
-  std::size_t patches_repaired = 0;   // groups of cells mended by moving volume nodes only
+  std::size_t patches_repaired = 0;     // groups of cells mended by moving volume nodes only
   std::size_t wall_faces_smoothed = 0;  // faces whose nodes slid along the CAD
-  std::vector<Index> lowered_faces;   // wall face slots whose shape was lowered below their order
-  RescueResult scaled;                // the last rung
-  std::vector<Index> pinched;         // cells that no curved wall can leave valid (elevate/pinched.hpp)
+  std::vector<Index> lowered_faces;     // wall face slots whose shape was lowered below their order
+  RescueResult scaled;                  // the last rung
+  std::vector<Index> pinched;  // cells that no curved wall can leave valid (elevate/pinched.hpp)
 };
 
 /// Climbs only as far as needed, for the cells that are not certified:
 /// (Pinched cells start at 3.)
-///   1. volume nodes of the group and its rings are moved (smooth/patch.hpp); the wall stays as it is
+///   1. volume nodes of the group and its rings are moved (smooth/patch.hpp); the wall stays as it
+///   is
 ///   2. wall faces under what is left are smoothed along the CAD, once each (wall_repair.hpp)
-///   3. wall faces under what is left get one order less of shape, and their columns are carried again
+///   3. wall faces under what is left get one order less of shape, and their columns are carried
+///   again
 ///   4. displacements are scaled back until certified (elevate/rescue.hpp); this always ends
 LadderResult climb(CurvedMesh& curved, const Association& association, const GeometryModel& model,
                    Placement& placement, const LayerField& field, const Wall& wall,
-                   const Columns& columns, const std::vector<Index>& pinched, const std::vector<Index>& uncertified);
+                   const Columns& columns, const std::vector<Index>& pinched,
+                   const std::vector<Index>& uncertified);
 
 }  // namespace camber

@@ -1,10 +1,10 @@
 #pragma once
+#include <camber/associate/by_tags.hpp>
+#include <camber/elevate/order_rules.hpp>
+
 #include <map>
 #include <string>
 #include <vector>
-
-#include <camber/associate/by_tags.hpp>
-#include <camber/elevate/order_rules.hpp>
 
 namespace camber {
 
@@ -16,15 +16,15 @@ enum class Propagation {
 
 /// Everything a run of curve() depends on besides its files.
 struct CurveOptions {
-  OrderOptions orders;            // --order, --min-order, --deviation, --deviation-length
-  bool uniform = false;           // write every cell at orders.max_order (exact elevation)
+  OrderOptions orders;   // --order, --min-order, --deviation, --deviation-length
+  bool uniform = false;  // write every cell at orders.max_order (exact elevation)
   Propagation propagation = Propagation::layer;
   LayerFieldOptions layer;
-  double scale = 0.0;             // --unit: mesh length per CAD length (read as mm); 0: found
-  TagOptions association;         // --patch
-  bool allow_invalid = false;     // write even if something is not certified
-  bool strict = false;            // faces over the deviation count as failure (exit code 3)
-  int threads = 0;                // 0: all
+  double scale = 0.0;          // --unit: mesh length per CAD length (read as mm); 0: found
+  TagOptions association;      // --patch
+  bool allow_invalid = false;  // write even if something is not certified
+  bool strict = false;         // faces over the deviation count as failure (exit code 3)
+  int threads = 0;             // 0: all
 };
 
 }  // namespace camber

@@ -1,15 +1,15 @@
 #pragma once
 // What a run found and did: the data behind the text report and the --json file (see docs/report).
+#include <camber/base/ids.hpp>
+#include <camber/base/vec.hpp>
+#include <camber/basis/shape.hpp>
+
 #include <array>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <camber/base/ids.hpp>
-#include <camber/base/vec.hpp>
-#include <camber/basis/shape.hpp>
 
 namespace camber {
 
@@ -30,7 +30,7 @@ struct SurfaceRow {  // one group (patch on CAD), or one order
   int order = 0;
   std::size_t faces = 0;
   double area = 0.0;
-  double average = 0.0, maximum = 0.0;                // shape conformity, eq. (1), and largest distance
+  double average = 0.0, maximum = 0.0;  // shape conformity, eq. (1), and largest distance
   double linear_average = 0.0, linear_maximum = 0.0;  // of the linear mesh
 };
 
@@ -38,13 +38,15 @@ struct RescuePlace {
   GlobalId cell = 0;
   Shape shape = Shape::point;
   Vec3 centre = Vec3::Zero();
-  double distance = 0.0;  // what it cost: largest distance of its wall nodes to where they were placed
-  std::string reason;     // "scaled back", "order lowered", "pinched between faces of one surface", ...
+  double distance =
+      0.0;  // what it cost: largest distance of its wall nodes to where they were placed
+  std::string
+      reason;  // "scaled back", "order lowered", "pinched between faces of one surface", ...
 };
 
 struct Report {
-  std::string command;          // "curve", "check", ...
-  std::string status = "ok";    // ok | not_certified | scaled_back | over_deviation | error
+  std::string command;        // "curve", "check", ...
+  std::string status = "ok";  // ok | not_certified | scaled_back | over_deviation | error
   int exit_code = 0;
   std::vector<std::pair<std::string, std::string>> options;  // effective options, name and value
   struct {
@@ -90,7 +92,8 @@ struct Report {
     std::size_t pinched = 0;  // tets with two faces or three edges on one smooth CAD face
     std::vector<RescuePlace> places;
   } rescue;
-  std::vector<std::pair<std::string, double>> stages_s;  // read, associate, elevate, place, propagate, ...
+  std::vector<std::pair<std::string, double>>
+      stages_s;  // read, associate, elevate, place, propagate, ...
   double total_s = 0.0;
   std::size_t peak_bytes = 0;
   int threads = 0, ranks = 1;

@@ -1,19 +1,17 @@
+#include <camber/base/parallel.hpp>
+#include <camber/basis/lagrange.hpp>
+#include <camber/metric/element_quality.hpp>
 #include <camber/pipeline/summary.hpp>
+#include <camber/validity/batch.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
-
 #include <sys/resource.h>
 
 #include <fmt/format.h>
-
-#include <camber/base/parallel.hpp>
-#include <camber/basis/lagrange.hpp>
-#include <camber/metric/element_quality.hpp>
-#include <camber/validity/batch.hpp>
 
 namespace camber {
 namespace {
@@ -61,7 +59,8 @@ void certify_cells(CurveResult& result, Report& report) {
     Points nodes;
     for (std::size_t i = begin; i < end; ++i) {
       const ElementKind kind = gather(i, nodes);
-      result.cell_cost[i] = kind.order == 1 ? 1.0 : element_cost(kind.shape, kind.order, nodes).minimum;
+      result.cell_cost[i] =
+          kind.order == 1 ? 1.0 : element_cost(kind.shape, kind.order, nodes).minimum;
     }
   });
   double sum = 0.0;
@@ -71,8 +70,10 @@ void certify_cells(CurveResult& result, Report& report) {
     report.validity.certified += b.verdict == Verdict::valid;
     report.validity.invalid += b.verdict == Verdict::invalid;
     report.validity.undecided += b.verdict == Verdict::undecided;
-    report.validity.min_scaled_jacobian = std::min(report.validity.min_scaled_jacobian, b.scaled_jacobian);
-    report.validity.min_jacobian_ratio = std::min(report.validity.min_jacobian_ratio, b.jacobian_ratio);
+    report.validity.min_scaled_jacobian =
+        std::min(report.validity.min_scaled_jacobian, b.scaled_jacobian);
+    report.validity.min_jacobian_ratio =
+        std::min(report.validity.min_jacobian_ratio, b.jacobian_ratio);
     put(report.quality.scaled_jacobian, b.scaled_jacobian);
     put(report.quality.cost, result.cell_cost[i]);
     report.quality.minimum = std::min(report.quality.minimum, result.cell_cost[i]);
@@ -90,8 +91,9 @@ void certify_cells(CurveResult& result, Report& report) {
                     });
   for (std::size_t i = 0; i < listed; ++i) {
     const Index c = worst[i];
-    report.validity.worst.push_back({mesh.cell_tags[at(c)], mesh.cell_shape[at(c)], curved.cell_order(c),
-                                     centre_of(mesh, c), result.cell_bound[at(c)]});
+    report.validity.worst.push_back({mesh.cell_tags[at(c)], mesh.cell_shape[at(c)],
+                                     curved.cell_order(c), centre_of(mesh, c),
+                                     result.cell_bound[at(c)]});
   }
 }
 
@@ -115,12 +117,14 @@ void measure_gaps(const CurveResult& result, Report& report) {
         const std::span<const Index> cell_faces = topology.faces_of_cell(c);
         std::size_t local = 0;
         while (cell_faces[local] != static_cast<Index>(i)) ++local;
-        const std::vector<int>& slots = lattice_map(curved.linear().cell_shape[at(c)], q).face[local];
+        const std::vector<int>& slots =
+            lattice_map(curved.linear().cell_shape[at(c)], q).face[local];
         const int view = topology.cell2face_view[at(topology.cell2face_offset[at(c)]) + local];
         const std::span<const int> frame_node = face_view_nodes(shape, view, q);
         seen[side].resize(slots.size());
         for (std::size_t n = 0; n < slots.size(); ++n) {
-          seen[side][static_cast<std::size_t>(frame_node[n])] = nodes[static_cast<std::size_t>(slots[n])];
+          seen[side][static_cast<std::size_t>(frame_node[n])] =
+              nodes[static_cast<std::size_t>(slots[n])];
         }
       }
       for (std::size_t n = 0; n < seen[0].size(); ++n) {
@@ -147,7 +151,9 @@ struct SurfaceSum {
     linear_maximum = std::max(linear_maximum, linear.maximum);
   }
   [[nodiscard]] double average() const { return area > 0.0 ? integral / area : 0.0; }
-  [[nodiscard]] double linear_average() const { return linear_area > 0.0 ? linear_integral / linear_area : 0.0; }
+  [[nodiscard]] double linear_average() const {
+    return linear_area > 0.0 ? linear_integral / linear_area : 0.0;
+  }
   [[nodiscard]] SurfaceRow row() const {
     SurfaceRow row;
     row.faces = faces;
@@ -175,8 +181,8 @@ void measure_surface(CurveResult& result, const GeometryModel& geometry, const W
           const int q = curved.face_order(f);
           const std::span<Vec3> all(nodes.data(), static_cast<std::size_t>(node_count(shape, q)));
           curved.face_lattice(f, q, all);
-          deviation[s] = measure_face(*projector, result.association.patch_of(f)->group, shape, q, all,
-                                      &wall.corners[at(wall.face_corners[s][0])]);
+          deviation[s] = measure_face(*projector, result.association.patch_of(f)->group, shape, q,
+                                      all, &wall.corners[at(wall.face_corners[s][0])]);
         }
       });
   const std::vector<double> shortest = shortest_edges(*result.linear, topology);
@@ -218,9 +224,10 @@ void measure_surface(CurveResult& result, const GeometryModel& geometry, const W
   }
 }
 
-/// Height of the first cell over every wall node of its order: distance to the node above it, linear and
-/// curved.
-void measure_wall_spacing(const CurveResult& result, const Wall& wall, const Columns& columns, Report& report) {
+/// Height of the first cell over every wall node of its order: distance to the node above it,
+/// linear and curved.
+void measure_wall_spacing(const CurveResult& result, const Wall& wall, const Columns& columns,
+                          Report& report) {
   const CurvedMesh& curved = *result.curved;
   const Topology& topology = *result.topology;
   report.wall_spacing.columns = columns.column_count;
@@ -287,12 +294,14 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
     all += (all.empty() ? "" : "; ") + reason;
   };
   for (Index c : ladder.pinched) {
-    if (result.curved->cell_order(c) > 1) add(c, "three edges of a corner lie on one smooth CAD face");
+    if (result.curved->cell_order(c) > 1)
+      add(c, "three edges of a corner lie on one smooth CAD face");
   }
   for (Index slot : ladder.lowered_faces) {
     const Index f = wall.faces[at(slot)];
-    add(topology.face2cell[at(f)][0], fmt::format("wall face lowered from order {} to the shape of order {}",
-                                                  result.curved->face_order(f), placement.face_cap(slot)));
+    add(topology.face2cell[at(f)][0],
+        fmt::format("wall face lowered from order {} to the shape of order {}",
+                    result.curved->face_order(f), placement.face_cap(slot)));
   }
   for (Index c : ladder.scaled.scaled_back) {
     add(c, fmt::format("scaled back to {:.3g} of its displacement", share_kept(ladder.scaled, c)));
@@ -310,27 +319,28 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
 
 void warn(const CurveResult& result, Report& report) {
   if (result.linear->sewn_vertices > 0) {
-    report.warnings.push_back(
-        fmt::format("{} vertices had a twin at the same place and were joined: the parts of the mesh did not "
-                    "share their nodes",
-                    result.linear->sewn_vertices));
+    report.warnings.push_back(fmt::format(
+        "{} vertices had a twin at the same place and were joined: the parts of the mesh did not "
+        "share their nodes",
+        result.linear->sewn_vertices));
   }
   for (const Patch& patch : result.association.patches) {
     if (patch.entity == 0) {
-      report.warnings.push_back(fmt::format(
-          "{} boundary faces have no surface element and stay straight", patch.faces));
+      report.warnings.push_back(
+          fmt::format("{} boundary faces have no surface element and stay straight", patch.faces));
     }
   }
 }
 
 /// Lowered wall faces that are over the deviation.
-std::size_t missed_by_lowering(const CurveResult& result, const Wall& wall, const LadderResult& ladder,
-                               const CurveOptions& options) {
+std::size_t missed_by_lowering(const CurveResult& result, const Wall& wall,
+                               const LadderResult& ladder, const CurveOptions& options) {
   const std::vector<double> shortest = shortest_edges(*result.linear, *result.topology);
   std::size_t missed = 0;
   for (Index slot : ladder.lowered_faces) {
     const Index f = wall.faces[at(slot)];
-    const double length = deviation_length(*result.linear, *result.topology, f, shortest, options.orders);
+    const double length =
+        deviation_length(*result.linear, *result.topology, f, shortest, options.orders);
     missed += result.face_deviation[at(f)] > options.orders.deviation * length;
   }
   return missed;
@@ -340,14 +350,19 @@ void decide(const CurveResult& result, const Placement& placement, const Wall& w
             const LadderResult& ladder, const CurveOptions& options, Report& report) {
   const Association& association = result.association;
   std::size_t unplaced = 0;
-  for (std::size_t s = 0; s < wall.edge_count(); ++s) unplaced += placement.is_edge_unplaced(static_cast<Index>(s));
-  for (std::size_t s = 0; s < wall.face_count(); ++s) unplaced += placement.is_face_unplaced(static_cast<Index>(s));
+  for (std::size_t s = 0; s < wall.edge_count(); ++s)
+    unplaced += placement.is_edge_unplaced(static_cast<Index>(s));
+  for (std::size_t s = 0; s < wall.face_count(); ++s)
+    unplaced += placement.is_face_unplaced(static_cast<Index>(s));
   if (unplaced > 0) {
-    report.warnings.push_back(fmt::format(
-        "{} wall edges or faces have a node that could not be put on its CAD entity; it stays straight", unplaced));
+    report.warnings.push_back(
+        fmt::format("{} wall edges or faces have a node that could not be put on its CAD entity; "
+                    "it stays straight",
+                    unplaced));
   }
   if (association.scale != 1.0) {
-    report.warnings.push_back(fmt::format("CAD lengths were multiplied by {:g} to fit the mesh", association.scale));
+    report.warnings.push_back(
+        fmt::format("CAD lengths were multiplied by {:g} to fit the mesh", association.scale));
   }
   if (report.validity.invalid + report.validity.undecided > 0) {
     report.status = "not_certified";
@@ -369,8 +384,8 @@ std::size_t peak_memory() {
 
 }  // namespace
 
-void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& wall, const Placement& placement,
-               const Columns& columns, const LadderResult& ladder,
+void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& wall,
+               const Placement& placement, const Columns& columns, const LadderResult& ladder,
                const CurveOptions& options) {
   Report& report = result.report;
   report.command = "curve";

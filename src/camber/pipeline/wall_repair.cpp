@@ -1,11 +1,10 @@
+#include <camber/basis/lagrange.hpp>
 #include <camber/pipeline/wall_repair.hpp>
+#include <camber/smooth/surface_patch.hpp>
 
 #include <algorithm>
 #include <map>
 #include <memory>
-
-#include <camber/basis/lagrange.hpp>
-#include <camber/smooth/surface_patch.hpp>
 
 namespace camber {
 namespace {
@@ -21,7 +20,11 @@ class WallRepair {
  public:
   WallRepair(const LinearMesh& mesh, const Topology& topology, const Association& association,
              const GeometryModel& model, const Wall& wall, Placement& placement)
-      : mesh_(mesh), topology_(topology), association_(association), wall_(wall), placement_(placement),
+      : mesh_(mesh),
+        topology_(topology),
+        association_(association),
+        wall_(wall),
+        placement_(placement),
         projector_(model.projector()) {
     for (std::size_t s = 0; s < wall.face_count(); ++s) {
       for (int i = 0; i < corner_total(static_cast<Index>(s)); ++i) {
@@ -42,11 +45,15 @@ class WallRepair {
   }
 
  private:
-  [[nodiscard]] int corner_total(Index slot) const { return topology_.corners_of_face(wall_.faces[at(slot)]); }
+  [[nodiscard]] int corner_total(Index slot) const {
+    return topology_.corners_of_face(wall_.faces[at(slot)]);
+  }
   [[nodiscard]] Index vertex(Index slot, int i) const {
     return topology_.face2vertex[at(wall_.faces[at(slot)])][sz(i)];
   }
-  [[nodiscard]] Index patch_of(Index slot) const { return association_.face2patch[at(wall_.faces[at(slot)])]; }
+  [[nodiscard]] Index patch_of(Index slot) const {
+    return association_.face2patch[at(wall_.faces[at(slot)])];
+  }
   [[nodiscard]] Index edge_slot(Index slot, int i) const {
     return wall_.edge_slot[at(topology_.face2edge[at(wall_.faces[at(slot)])][sz(i)])];
   }
@@ -66,20 +73,24 @@ class WallRepair {
   /// An edge may slide if it lies inside the patch and both of its faces are in the core.
   [[nodiscard]] bool may_slide(Index edge, const std::vector<Index>& core) const {
     const auto [a, b] = wall_.edge_faces[at(edge)];
-    return a != k_none && b != k_none && association_.edge2curve[at(wall_.edges[at(edge)])].dim != 1 &&
-           std::binary_search(core.begin(), core.end(), a) && std::binary_search(core.begin(), core.end(), b);
+    return a != k_none && b != k_none &&
+           association_.edge2curve[at(wall_.edges[at(edge)])].dim != 1 &&
+           std::binary_search(core.begin(), core.end(), a) &&
+           std::binary_search(core.begin(), core.end(), b);
   }
 
   [[nodiscard]] Points lattice_of(Index slot, int q) const {
     const Index f = wall_.faces[at(slot)];
     std::array<Vec3, 4> corner;
     const std::size_t n = sz(corner_total(slot));
-    for (std::size_t i = 0; i < n; ++i) corner[i] = mesh_.vertices[at(vertex(slot, static_cast<int>(i)))];
+    for (std::size_t i = 0; i < n; ++i)
+      corner[i] = mesh_.vertices[at(vertex(slot, static_cast<int>(i)))];
     return straight_nodes(topology_.face_shape[at(f)], q, std::span(corner.data(), n));
   }
 
   [[nodiscard]] SurfaceFoot foot(Index slot, const Vec3& x) const {
-    const Projection p = project_to_group(*projector_, association_.patches[at(patch_of(slot))].group, x);
+    const Projection p =
+        project_to_group(*projector_, association_.patches[at(patch_of(slot))].group, x);
     Vec3 reference = Vec3::Zero();
     for (Index c : wall_.face_corners[at(slot)]) {
       if (c != k_none) reference += wall_.corners[at(c)].normal;
@@ -95,7 +106,7 @@ class WallRepair {
     const int q = placement_.max_order();
     SurfacePatch patch;
     patch.order = q;
-    std::vector<Index> owner;               // node -> face slot whose patch it lies on
+    std::vector<Index> owner;                       // node -> face slot whose patch it lies on
     std::map<Index, Index> vertex_node, edge_node;  // first node
     const auto add = [&](const Vec3& x, bool is_free, Index slot) {
       patch.nodes.push_back(x);
@@ -139,16 +150,16 @@ class WallRepair {
       }
       patch.faces.push_back(std::move(face));
     }
-    const bool is_repaired = smooth_surface(
-        patch, [&](Index node, const Vec3& x) { return foot(owner[at(node)], x); });
+    const bool is_repaired =
+        smooth_surface(patch, [&](Index node, const Vec3& x) { return foot(owner[at(node)], x); });
     if (!is_repaired) return false;
     store(core, patch, edge_node, face_node);
     return true;
   }
 
   /// Writes the highest order back and derives the lower ones from it.
-  void store(const std::vector<Index>& core, const SurfacePatch& patch, const std::map<Index, Index>& edge_node,
-             const std::vector<Index>& face_node) {
+  void store(const std::vector<Index>& core, const SurfacePatch& patch,
+             const std::map<Index, Index>& edge_node, const std::vector<Index>& face_node) {
     const int top = placement_.max_order();
     for (int q = top; q >= 2; --q) {
       for (const auto& [edge, first] : edge_node) {
@@ -167,7 +178,8 @@ class WallRepair {
           Points all;
           for (Index n : patch.faces[i].nodes) all.push_back(patch.nodes[at(n)]);
           for (int n : interior_nodes(shape, q)) {
-            nodes.push_back(foot(core[i], evaluate(shape, top, all, lattice_xi(shape, q)[sz(n)])).point);
+            nodes.push_back(
+                foot(core[i], evaluate(shape, top, all, lattice_xi(shape, q)[sz(n)])).point);
           }
         }
         placement_.set_face(core[i], q, nodes);
@@ -184,7 +196,8 @@ class WallRepair {
     for (int i = 1; i < q; ++i) {
       const Vec3 xi(static_cast<double>(i) / q, 0.0, 0.0);
       nodes.push_back(foot(wall_.edge_faces[at(edge)][0],
-                           evaluate(Shape::line, placement_.max_order(), all, xi)).point);
+                           evaluate(Shape::line, placement_.max_order(), all, xi))
+                          .point);
     }
     return nodes;
   }
@@ -201,8 +214,9 @@ class WallRepair {
 }  // namespace
 
 std::vector<Index> smooth_wall_faces(const LinearMesh& mesh, const Topology& topology,
-                                     const Association& association, const GeometryModel& model, const Wall& wall,
-                                     Placement& placement, const std::vector<Index>& slots) {
+                                     const Association& association, const GeometryModel& model,
+                                     const Wall& wall, Placement& placement,
+                                     const std::vector<Index>& slots) {
   return WallRepair(mesh, topology, association, model, wall, placement).run(slots);
 }
 

@@ -38,7 +38,8 @@ Distortion distortion(const Mat3& T, double delta) {
   result.energy = a * b * size / 9.0;
   // d|cof T|^2/dT = 2 (|T|^2 T - T T^t T);  d det T/dT = cof T.
   const Mat3 b_slope = 2.0 * (a * T - T * (T.transpose() * T));
-  result.gradient = (2.0 * b * size * T + a * size * b_slope + a * b * size_slope * h_slope * cof) / 9.0;
+  result.gradient =
+      (2.0 * b * size * T + a * size * b_slope + a * b * size_slope * h_slope * cof) / 9.0;
   return result;
 }
 

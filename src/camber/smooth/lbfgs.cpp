@@ -10,8 +10,8 @@ namespace camber {
 namespace {
 
 constexpr double k_armijo = 1e-4;
-/// The slope must fall to this share of its start, so that a step is not far too short and the change of
-/// gradient tells of positive curvature.
+/// The slope must fall to this share of its start, so that a step is not far too short and the
+/// change of gradient tells of positive curvature.
 constexpr double k_wolfe = 0.9;
 constexpr int k_trials = 30;
 
@@ -20,7 +20,8 @@ struct Pair {
   double inverse_product;
 };
 
-VecX descent_direction(const VecX& gradient, const std::deque<Pair>& pairs, const VecX& inverse_diagonal) {
+VecX descent_direction(const VecX& gradient, const std::deque<Pair>& pairs,
+                       const VecX& inverse_diagonal) {
   VecX q = gradient;
   std::vector<double> alpha(pairs.size());
   for (std::size_t i = pairs.size(); i-- > 0;) {
@@ -48,10 +49,11 @@ struct Point {
 
 using Objective = std::function<double(const VecX&, VecX&)>;
 
-/// Weak Wolfe conditions by bisection: shorter where the value is too high (or undefined), longer (up to
-/// `longest`) where the slope is still steep. @return whether `here` moved to a lower point
+/// Weak Wolfe conditions by bisection: shorter where the value is too high (or undefined), longer
+/// (up to `longest`) where the slope is still steep. @return whether `here` moved to a lower point
 /// Source: Lewis, Overton 2013, doi 10.1007/s10107-012-0514-2.
-bool search_line(const Objective& f, const VecX& direction, double slope, double longest, Point& here) {
+bool search_line(const Objective& f, const VecX& direction, double slope, double longest,
+                 Point& here) {
   double low = 0.0, high = std::numeric_limits<double>::infinity();
   double length = std::min(1.0, longest);
   Point trial{VecX(here.x.size()), VecX(here.x.size()), 0.0}, best;
@@ -74,12 +76,15 @@ bool search_line(const Objective& f, const VecX& direction, double slope, double
 
 }  // namespace
 
-int minimise_lbfgs(const std::function<double(const VecX&, VecX&)>& f, VecX& x, const VecX& inverse_diagonal,
-                   const LbfgsOptions& options, const std::function<bool(const VecX&)>& is_done) {
+int minimise_lbfgs(const std::function<double(const VecX&, VecX&)>& f, VecX& x,
+                   const VecX& inverse_diagonal, const LbfgsOptions& options,
+                   const std::function<bool(const VecX&)>& is_done) {
   Point here{x, VecX(x.size()), 0.0};
   here.value = f(here.x, here.gradient);
   if (!std::isfinite(here.value)) return 0;
-  const auto norm = [&](const VecX& g) { return std::sqrt(g.dot(inverse_diagonal.cwiseProduct(g))); };
+  const auto norm = [&](const VecX& g) {
+    return std::sqrt(g.dot(inverse_diagonal.cwiseProduct(g)));
+  };
   const double first_norm = norm(here.gradient);
   std::deque<Pair> pairs;
   int iteration = 0;

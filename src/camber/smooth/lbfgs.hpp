@@ -1,8 +1,8 @@
 #pragma once
 // Limited-memory BFGS on a plain vector; the objective may answer infinity outside its domain.
-#include <functional>
-
 #include <camber/base/vec.hpp>
+
+#include <functional>
 
 namespace camber {
 
@@ -13,9 +13,10 @@ struct LbfgsOptions {
   double longest_step = 1e300;       // in the norm of the inverse of `inverse_diagonal`
 };
 
-/// Minimises f from x (changed in place). `inverse_diagonal` is the initial inverse Hessian (one entry a
-/// variable, > 0). Weak Wolfe line search; stops when it fails or `is_done(x)` says so.
-/// @param f  returns the value and fills the gradient; +inf where undefined (then the gradient is ignored)
+/// Minimises f from x (changed in place). `inverse_diagonal` is the initial inverse Hessian (one
+/// entry a variable, > 0). Weak Wolfe line search; stops when it fails or `is_done(x)` says so.
+/// @param f  returns the value and fills the gradient; +inf where undefined (then the gradient is
+/// ignored)
 /// @return iterations made. Source: Nocedal 1980, doi 10.1090/S0025-5718-1980-0572855-7.
 int minimise_lbfgs(const std::function<double(const VecX& x, VecX& gradient)>& f, VecX& x,
                    const VecX& inverse_diagonal, const LbfgsOptions& options,

@@ -1,17 +1,16 @@
+#include <camber/base/parallel.hpp>
+#include <camber/basis/lagrange.hpp>
+#include <camber/basis/quadrature.hpp>
+#include <camber/smooth/distortion.hpp>
+#include <camber/smooth/lbfgs.hpp>
 #include <camber/smooth/patch.hpp>
+#include <camber/validity/element_validity.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
-
-#include <camber/base/parallel.hpp>
-#include <camber/basis/lagrange.hpp>
-#include <camber/basis/quadrature.hpp>
-#include <camber/smooth/distortion.hpp>
-#include <camber/smooth/lbfgs.hpp>
-#include <camber/validity/element_validity.hpp>
 
 namespace camber {
 namespace {
@@ -20,8 +19,8 @@ std::size_t sz(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 /// Weight of all lattice samples of a cell together, beside 1 for its Gauss points.
 constexpr double k_lattice_weight = 0.1;
-/// A repaired cell should keep at least this share of its straight Jacobian at every sample before the group
-/// is tested.
+/// A repaired cell should keep at least this share of its straight Jacobian at every sample before
+/// the group is tested.
 constexpr double k_wanted_ratio = 0.05;
 
 void make_unique(std::vector<Index>& items) {
@@ -43,7 +42,8 @@ constexpr std::size_t k_cells_per_task = 16;
 /// The free nodes of a group and how the cells around depend on them.
 class Patch {
  public:
-  Patch(CurvedMesh& curved, const std::vector<Index>& core, const FixedEntities& fixed) : curved_(curved) {
+  Patch(CurvedMesh& curved, const std::vector<Index>& core, const FixedEntities& fixed)
+      : curved_(curved) {
     const Topology& topology = curved.topology();
     for (Index c : core) {
       for (Index e : topology.edges_of_cell(c)) {
@@ -94,20 +94,23 @@ class Patch {
     });
   }
 
-  /// Finds, by moving one node at a time, which nodes of which cell depend on it and how: gather is linear.
+  /// Finds, by moving one node at a time, which nodes of which cell depend on it and how: gather is
+  /// linear.
   void build() {
     std::vector<std::vector<std::pair<Index, VecX>>> columns(cells_.size());
     const VecX x = positions();
     set_positions(VecX::Zero(x.size()));
     std::vector<Points> base(cells_.size());
-    for (std::size_t i = 0; i < cells_.size(); ++i) curved_.gather(cells_[i], curved_.cell_order(cells_[i]), base[i]);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      curved_.gather(cells_[i], curved_.cell_order(cells_[i]), base[i]);
     Index number = 0;
     Points nodes;
     const auto probe = [&](std::span<Vec3> own, const std::vector<Index>& touching) {
       for (Vec3& node : own) {
         node.x() = 1.0;
         for (Index c : touching) {
-          const std::size_t i = static_cast<std::size_t>(std::lower_bound(cells_.begin(), cells_.end(), c) - cells_.begin());
+          const std::size_t i = static_cast<std::size_t>(
+              std::lower_bound(cells_.begin(), cells_.end(), c) - cells_.begin());
           curved_.gather(c, curved_.cell_order(c), nodes);
           VecX column(static_cast<Eigen::Index>(nodes.size()));
           for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -137,7 +140,9 @@ class Patch {
   }
 
   /// Another sample where a certificate failed.
-  void add_sample(std::size_t i, const Vec3& xi) { add_samples(data_[i], std::span(&xi, 1), std::array{1.0}); }
+  void add_sample(std::size_t i, const Vec3& xi) {
+    add_samples(data_[i], std::span(&xi, 1), std::array{1.0});
+  }
 
   [[nodiscard]] double evaluate(const VecX& x, double delta, VecX& gradient) {
     parallel_for(data_.size(), k_cells_per_task, [&](std::size_t begin, std::size_t end) {
@@ -175,7 +180,8 @@ class Patch {
       for (Eigen::Index s = 0; s < cell.basis.rows() / 3; ++s) {
         const MatX g = cell.W_inverse[sz(s)].transpose() * cell.basis.middleRows<3>(3 * s);
         for (Eigen::Index k = 0; k < g.cols(); ++k) {
-          diagonal.segment<3>(3 * cell.free[sz(k)]).array() += cell.weight[sz(s)] * g.col(k).squaredNorm();
+          diagonal.segment<3>(3 * cell.free[sz(k)]).array() +=
+              cell.weight[sz(s)] * g.col(k).squaredNorm();
         }
       }
     }
@@ -189,8 +195,8 @@ class Patch {
     Points base, straight;
     std::vector<Index> free;
     MatX dependence;  // nodes x free
-    // Per sample s: rows 3s..3s+2 hold d/dxi of the free nodes' functions (basis) and of the fixed part of x
-    // (offset); W_inverse of the straight element; weight.
+    // Per sample s: rows 3s..3s+2 hold d/dxi of the free nodes' functions (basis) and of the fixed
+    // part of x (offset); W_inverse of the straight element; weight.
     MatX basis, offset;
     std::vector<Mat3> W_inverse;
     std::vector<double> weight;
@@ -216,7 +222,8 @@ class Patch {
   [[nodiscard]] static MatX jacobians(const CellData& cell, const VecX& x) {
     const Eigen::Index n = static_cast<Eigen::Index>(cell.free.size());
     MatX local(n, 3);
-    for (Eigen::Index k = 0; k < n; ++k) local.row(k) = x.segment<3>(3 * cell.free[sz(k)]).transpose();
+    for (Eigen::Index k = 0; k < n; ++k)
+      local.row(k) = x.segment<3>(3 * cell.free[sz(k)]).transpose();
     MatX J = cell.offset;
     J.noalias() += cell.basis * local;
     return J;
@@ -235,7 +242,8 @@ class Patch {
     cell.order = curved_.cell_order(c);
     cell.base = base;
     curved_.gather_straight(c, cell.order, cell.straight);
-    cell.dependence.resize(static_cast<Eigen::Index>(base.size()), static_cast<Eigen::Index>(columns.size()));
+    cell.dependence.resize(static_cast<Eigen::Index>(base.size()),
+                           static_cast<Eigen::Index>(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k) {
       cell.free.push_back(columns[k].first);
       cell.dependence.col(static_cast<Eigen::Index>(k)) = columns[k].second;
@@ -250,7 +258,8 @@ class Patch {
     data_.push_back(std::move(cell));
   }
 
-  static void add_samples(CellData& cell, std::span<const Vec3> points, std::span<const double> weights) {
+  static void add_samples(CellData& cell, std::span<const Vec3> points,
+                          std::span<const double> weights) {
     std::vector<Vec3> dN(cell.base.size());
     const Eigen::Index before = cell.offset.rows(), n = cell.dependence.cols();
     cell.basis.conservativeResize(before + 3 * static_cast<Eigen::Index>(points.size()), n);
@@ -281,7 +290,8 @@ class Patch {
 };
 
 /// Cells of the patch that are not certified, with where.
-std::vector<std::pair<std::size_t, Vec3>> failing_cells(const CurvedMesh& curved, const std::vector<Index>& cells) {
+std::vector<std::pair<std::size_t, Vec3>> failing_cells(const CurvedMesh& curved,
+                                                        const std::vector<Index>& cells) {
   std::vector<std::pair<std::size_t, Vec3>> failing;
   Points nodes;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -294,9 +304,11 @@ std::vector<std::pair<std::size_t, Vec3>> failing_cells(const CurvedMesh& curved
   return failing;
 }
 
-/// Optimises from the nodes as they are; true if all cells came out certified, else the nodes are put back.
+/// Optimises from the nodes as they are; true if all cells came out certified, else the nodes are
+/// put back.
 /// @param allowance  evaluations of one cell that may still be spent; reduced by those made
-bool repair(CurvedMesh& curved, Patch& patch, const UntangleOptions& options, std::size_t& allowance) {
+bool repair(CurvedMesh& curved, Patch& patch, const UntangleOptions& options,
+            std::size_t& allowance) {
   const VecX start = patch.positions();
   VecX x = start;
   const VecX scale = patch.inverse_diagonal();
@@ -305,10 +317,13 @@ bool repair(CurvedMesh& curved, Patch& patch, const UntangleOptions& options, st
   lbfgs.longest_step = k_longest_step;
   double least = patch.least_ratio(x), best = least;
   int since_best = 0;
-  for (int round = 0; round < options.max_rounds && since_best < k_patience && allowance > 0; ++round) {
-    // Wide at first, so that inverted samples see a slope; narrower each round, to push them through zero.
-    const double delta =
-        least > 0.0 ? 0.0 : std::max(k_least_delta, 0.3 * std::abs(least)) * std::pow(k_delta_shrink, round);
+  for (int round = 0; round < options.max_rounds && since_best < k_patience && allowance > 0;
+       ++round) {
+    // Wide at first, so that inverted samples see a slope; narrower each round, to push them
+    // through zero.
+    const double delta = least > 0.0 ? 0.0
+                                     : std::max(k_least_delta, 0.3 * std::abs(least)) *
+                                           std::pow(k_delta_shrink, round);
     const auto energy = [&](const VecX& y, VecX& g) {
       allowance -= std::min(allowance, patch.cells().size());
       return patch.evaluate(y, delta, g);
@@ -356,7 +371,8 @@ void straighten(CurvedMesh& curved, const CurvedMesh& straight, const std::vecto
 }
 
 /// Groups whose ring-grown cells overlap.
-std::vector<std::vector<Index>> connected_groups(const Topology& topology, const std::vector<Index>& cells) {
+std::vector<std::vector<Index>> connected_groups(const Topology& topology,
+                                                 const std::vector<Index>& cells) {
   std::vector<std::vector<Index>> groups;
   std::vector<std::uint8_t> is_taken(cells.size(), 0);
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -395,8 +411,8 @@ FixedEntities boundary_entities(const Topology& topology) {
   return fixed;
 }
 
-UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified, const FixedEntities& fixed,
-                        const UntangleOptions& options) {
+UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified,
+                        const FixedEntities& fixed, const UntangleOptions& options) {
   UntangleResult result;
   std::optional<CurvedMesh> straight;
   for (const std::vector<Index>& group : connected_groups(curved.topology(), uncertified)) {
@@ -404,7 +420,8 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
     bool is_repaired = false;
     std::vector<Index> core = group;
     const std::size_t granted =
-        std::min(options.evaluations_per_group, options.evaluations - std::min(options.evaluations, result.evaluations));
+        std::min(options.evaluations_per_group,
+                 options.evaluations - std::min(options.evaluations, result.evaluations));
     std::size_t allowance = granted;
     for (int ring = 0; ring < options.rings && !is_repaired && allowance > 0; ++ring) {
       core = neighbours(curved.topology(), core);

@@ -1,9 +1,9 @@
 #pragma once
 // Repairs small groups of cells by moving only nodes inside the volume.
+#include <camber/mesh/curved_mesh.hpp>
+
 #include <cstdint>
 #include <vector>
-
-#include <camber/mesh/curved_mesh.hpp>
 
 namespace camber {
 
@@ -15,8 +15,8 @@ struct FixedEntities {
 [[nodiscard]] FixedEntities boundary_entities(const Topology& topology);
 
 struct UntangleOptions {
-  int rings = 3;              // layers of neighbours whose nodes may move too
-  int max_rounds = 12;        // of regularisation
+  int rings = 3;        // layers of neighbours whose nodes may move too
+  int max_rounds = 12;  // of regularisation
   int iterations_per_round = 40;
   std::size_t max_cells = 4000;  // a larger patch is left alone
   // Work limits, counted in evaluations of one cell: for one group, and for all groups of a call.
@@ -29,12 +29,12 @@ struct UntangleResult {
   std::size_t evaluations = 0;            // of one cell, spent
 };
 
-/// For each connected group of uncertified cells: minimises the distortion energy over the free nodes of the
-/// group and its rings (L-BFGS, scaled by the diagonal of the energy's metric part), regularised while
-/// something is inverted, until every cell it touches is certified; else the group is put back as it was.
-/// Energy: Gauss points with weights of equal sum per cell, plus the lattice points with little weight, plus
-/// points where a certificate failed. Deterministic.
-UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified, const FixedEntities& fixed,
-                        const UntangleOptions& options = {});
+/// For each connected group of uncertified cells: minimises the distortion energy over the free
+/// nodes of the group and its rings (L-BFGS, scaled by the diagonal of the energy's metric part),
+/// regularised while something is inverted, until every cell it touches is certified; else the
+/// group is put back as it was. Energy: Gauss points with weights of equal sum per cell, plus the
+/// lattice points with little weight, plus points where a certificate failed. Deterministic.
+UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified,
+                        const FixedEntities& fixed, const UntangleOptions& options = {});
 
 }  // namespace camber

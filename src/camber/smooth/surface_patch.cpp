@@ -1,13 +1,12 @@
+#include <camber/basis/lagrange.hpp>
+#include <camber/basis/quadrature.hpp>
+#include <camber/smooth/distortion.hpp>
+#include <camber/smooth/lbfgs.hpp>
 #include <camber/smooth/surface_patch.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <camber/basis/lagrange.hpp>
-#include <camber/basis/quadrature.hpp>
-#include <camber/smooth/distortion.hpp>
-#include <camber/smooth/lbfgs.hpp>
 
 namespace camber {
 namespace {
@@ -35,7 +34,8 @@ struct FaceSamples {
   std::vector<Sample> samples;
 };
 
-/// The straight Jacobian in an orthonormal frame of its own plane: a 2 x 2 matrix with the same lengths, angles.
+/// The straight Jacobian in an orthonormal frame of its own plane: a 2 x 2 matrix with the same
+/// lengths, angles.
 Mat2 in_own_plane(const Mat32& W) {
   const Vec3 e1 = W.col(0).normalized();
   const Vec3 e2 = (W.col(1) - W.col(1).dot(e1) * e1).normalized();
@@ -71,7 +71,8 @@ FaceSamples sample_face(const SurfaceFace& face, int order) {
     lagrange_values(face.shape, 1, points[i], std::span(N.data(), corner_total));
     s.normal.setZero();
     for (std::size_t c = 0; c < corner_total; ++c) {
-      s.normal += N[static_cast<std::size_t>(lattice_map(face.shape, 1).corner[c])] * face.corner_normal[c];
+      s.normal +=
+          N[static_cast<std::size_t>(lattice_map(face.shape, 1).corner[c])] * face.corner_normal[c];
     }
     s.normal.normalize();
     result.samples.push_back(std::move(s));
@@ -134,7 +135,8 @@ class SurfaceEnergy {
       }
       for (Eigen::Index i = 0; i < n; ++i) {
         const Index k = free_number_[at(fs.face->nodes[static_cast<std::size_t>(i)])];
-        if (k != k_none) gradient.segment<2>(2 * k) += frames_[at(k)].transpose() * slope.row(i).transpose();
+        if (k != k_none)
+          gradient.segment<2>(2 * k) += frames_[at(k)].transpose() * slope.row(i).transpose();
       }
     }
     return energy;
@@ -182,15 +184,17 @@ bool smooth_surface(SurfacePatch& patch, const OntoSurface& onto) {
     VecX t = VecX::Zero(energy.size());
     const double least = energy.least_tau(t);
     if (round > 0 && least > k_clear) return true;
-    const double delta =
-        least > 0.0 ? 0.0 : std::max(k_least_delta, 0.3 * std::abs(least)) * std::pow(k_delta_shrink, round);
+    const double delta = least > 0.0 ? 0.0
+                                     : std::max(k_least_delta, 0.3 * std::abs(least)) *
+                                           std::pow(k_delta_shrink, round);
     LbfgsOptions options;
     options.max_iterations = k_iterations;
     options.longest_step = k_longest_step;
     minimise_lbfgs([&](const VecX& y, VecX& g) { return energy.evaluate(y, delta, g); }, t,
                    energy.inverse_diagonal(), options);
     std::vector<std::pair<Index, SurfaceFoot>> feet;
-    for (Index node : energy.free_nodes()) feet.emplace_back(node, onto(node, energy.position(node, t)));
+    for (Index node : energy.free_nodes())
+      feet.emplace_back(node, onto(node, energy.position(node, t)));
     for (const auto& [node, foot] : feet) {
       patch.nodes[at(node)] = foot.point;
       normals[at(node)] = foot.normal;
