@@ -16,8 +16,9 @@ using Json = nlohmann::json;
 const std::string k_mesh = bundled("ball/linear.msh"), k_cad = bundled("ball/body.step");
 
 TEST_F(CliTest, CurvesTheBallWritesItTwiceAndReports) {
-  const Outcome outcome = camber({"curve", k_mesh, "-g", k_cad, "-o", file("out.msh"), "-o",
-                                  file("out.vtu"), "--order", "3", "--json", file("report.json")});
+  const Outcome outcome =
+      camber({"curve", k_mesh, "-g", k_cad, "-o", file("out.msh"), "-o", file("out.vtu"), "--order",
+              "3", "--deviation", "0.001", "--json", file("report.json")});
 
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");

@@ -188,6 +188,7 @@ TEST(OrderRules, AThinNeighbourIsRaisedByTheVolumeTestAThickOneIsNot) {
     options.max_order = 2;
     options.deviation = 1e-6;
     options.volume_deviation = second < 1.0 ? 0.05 : 20.0;
+    options.wall_cell_deviation = options.volume_deviation;
     const OrderField orders =
         settle_orders(c->mesh, c->topology, requests_of(*c, c->field(), options), options);
     for (Index cell = 0; at(cell) < c->mesh.cell_count(); ++cell) {
@@ -195,6 +196,20 @@ TEST(OrderRules, AThinNeighbourIsRaisedByTheVolumeTestAThickOneIsNot) {
       EXPECT_EQ(orders.cell[at(cell)], is_first || second < 1.0 ? 2 : 1);
     }
   }
+}
+
+TEST(OrderRules, AFirstCellLetsLessBeMissedThanOthers) {
+  // As above with a thick second layer, but what lies on a first cell may miss next to nothing.
+  const auto c = make_case(layers_on(icosphere(1), {0.0, 0.01, 10.01}, outwards),
+                           make_sphere(Vec3::Zero(), 1.0));
+  OrderOptions options;
+  options.max_order = 2;
+  options.deviation = 1e-6;
+  options.volume_deviation = 20.0;
+  options.wall_cell_deviation = 0.01;
+  const OrderField orders =
+      settle_orders(c->mesh, c->topology, requests_of(*c, c->field(), options), options);
+  for (std::uint8_t q : orders.cell) EXPECT_EQ(q, 2);
 }
 
 TEST(OrderRules, MixedOrdersStayCertifiedOnThinLayersWithoutAskingForTheHighest) {

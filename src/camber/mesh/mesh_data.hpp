@@ -22,9 +22,9 @@ struct EntityKey {
 struct ElementBlock {
   Shape shape = Shape::point;
   int order = 1;
-  int entity = 0;            // tag of the entity of dimension(shape)
-  std::vector<Index> nodes;  // element after element, node_count(shape, order) each, CANONICAL
-                             // lattice order (node_order.hpp), indices into MeshData::points
+  int entity = 0;              // tag of the entity of dimension(shape)
+  std::vector<Index> nodes;    // element after element, node_count(shape, order) each, CANONICAL
+                               // lattice order (node_order.hpp), indices into MeshData::points
   std::vector<GlobalId> tags;  // element numbers of the file; may be empty
 
   [[nodiscard]] std::size_t size() const {

@@ -135,7 +135,7 @@ MeshData exported(const CurveResult& result, const CurveOptions& options) {
   MeshData data = export_mesh(*result.curved, options.uniform ? options.orders.max_order : 0, &map);
   const std::size_t n = map.cell.size();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Field order{"order", std::vector<double>(n, nan)},
+  Field order{"shape_order", std::vector<double>(n, nan)},
       bound{"scaled_jacobian", std::vector<double>(n, nan)};
   Field cost{"cost", std::vector<double>(n, nan)}, patch{"patch", std::vector<double>(n, nan)};
   Field deviation{"deviation", std::vector<double>(n, nan)};
@@ -158,8 +158,9 @@ MeshData exported(const CurveResult& result, const CurveOptions& options) {
       cost.values[i] = result.cell_cost[at(behind)];
     }
   }
-  data.element_fields = {std::move(order), std::move(bound), std::move(cost), std::move(patch),
-                         std::move(deviation)};
+  data.element_fields = {std::move(bound), std::move(cost), std::move(patch), std::move(deviation)};
+  // The file's own order of a cell says this already, unless all were elevated to one.
+  if (options.uniform) data.element_fields.push_back(std::move(order));
   data.source = result.report.input.mesh;
   return data;
 }

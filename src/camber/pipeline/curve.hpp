@@ -27,8 +27,9 @@ struct CurveResult {
 [[nodiscard]] CurveResult curve(const MeshData& data, GeometryModel& geometry,
                                 const CurveOptions& options, const Progress& progress = {});
 
-/// The mesh to write (mixed, or uniform as the options say) with the fields order, scaled_jacobian,
-/// cost, patch, deviation.
+/// The mesh to write (mixed, or uniform as the options say) with the element fields
+/// scaled_jacobian, cost, patch and deviation; and shape_order, the order before the elevation,
+/// when it is uniform.
 [[nodiscard]] MeshData exported(const CurveResult& result, const CurveOptions& options);
 
 }  // namespace camber

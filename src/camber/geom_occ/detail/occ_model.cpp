@@ -19,15 +19,20 @@ std::string label(GeomEntity entity) {
 }
 
 Box box_of(const TopoDS_Shape& shape) {
-  Bnd_Box kernel;
-  BRepBndLib::AddOptimal(shape, kernel, false, false);
+  // Both boxes hold the shape, and each is too large in places: the optimal one ignores the trim of
+  // a part of a torus, the quick one takes in control points.
+  Bnd_Box optimal, quick;
+  BRepBndLib::AddOptimal(shape, optimal, false, false);
+  BRepBndLib::Add(shape, quick, false);
   Box result;
-  if (kernel.IsVoid()) return result;
-  kernel.SetGap(0.0);
-  double a[3], b[3];
-  kernel.Get(a[0], a[1], a[2], b[0], b[1], b[2]);
-  result.add(Vec3(a[0], a[1], a[2]));
-  result.add(Vec3(b[0], b[1], b[2]));
+  if (optimal.IsVoid() || quick.IsVoid()) return result;
+  optimal.SetGap(0.0);
+  quick.SetGap(0.0);
+  Vec3 a, b, c, d;
+  optimal.Get(a[0], a[1], a[2], b[0], b[1], b[2]);
+  quick.Get(c[0], c[1], c[2], d[0], d[1], d[2]);
+  result.add(a.cwiseMax(c));
+  result.add(b.cwiseMin(d));
   return result;
 }
 
