@@ -64,7 +64,6 @@ void set_patches(const std::vector<std::string>& texts, TagOptions& association)
 
 CurveOptions options_of(const CurveFlags& flags) {
   CurveOptions options = flags.options;
-  options.threads = flags.common.threads;
   options.scale = scale_of_unit(flags.unit);
   set_deviation_length(flags.deviation_length, options.orders);
   set_patches(flags.patches, options.association);

@@ -1,4 +1,5 @@
 #include <camber/base/parallel.hpp>
+#include <camber/base/sorted_set.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/elevate/apply_field.hpp>
 
@@ -76,11 +77,6 @@ std::vector<Index> counted(std::size_t n) {
   return items;
 }
 
-void make_unique(std::vector<Index>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
-
 }  // namespace
 
 void apply_field(const LayerField& field, CurvedMesh& curved) {
@@ -94,9 +90,9 @@ void apply_field(const LayerField& field, CurvedMesh& curved, const std::vector<
     for (Index e : curved.topology().edges_of_cell(c)) edges.push_back(e);
     for (Index f : curved.topology().faces_of_cell(c)) faces.push_back(f);
   }
-  make_unique(edges);
-  make_unique(faces);
-  make_unique(inside);
+  make_sorted_set(edges);
+  make_sorted_set(faces);
+  make_sorted_set(inside);
   set_all(field, curved, edges, faces, inside);
 }
 

@@ -1,4 +1,5 @@
 #include <camber/base/parallel.hpp>
+#include <camber/base/sorted_set.hpp>
 #include <camber/elevate/rescue.hpp>
 
 #include <algorithm>
@@ -29,8 +30,8 @@ class Reducer {
       for (Index e : topology_.edges_of_cell(c)) edges.push_back(e);
       for (Index f : topology_.faces_of_cell(c)) faces.push_back(f);
     }
-    make_unique(edges);
-    make_unique(faces);
+    make_sorted_set(edges);
+    make_sorted_set(faces);
     std::vector<Index> touched;
     for (Index e : edges) {
       if (!halve(halvings_[0][at(e)], curved_.edge_nodes(e), straight_.edge_nodes(e))) continue;
@@ -46,7 +47,7 @@ class Reducer {
       if (halve(halvings_[2][at(c)], curved_.cell_nodes(c), straight_.cell_nodes(c)))
         touched.push_back(c);
     }
-    make_unique(touched);
+    make_sorted_set(touched);
     return touched;
   }
 
@@ -56,10 +57,6 @@ class Reducer {
   }
 
  private:
-  static void make_unique(std::vector<Index>& items) {
-    std::sort(items.begin(), items.end());
-    items.erase(std::unique(items.begin(), items.end()), items.end());
-  }
   /// False if the entity is straight already.
   static bool halve(std::uint8_t& count, std::span<Vec3> x, std::span<const Vec3> straight) {
     if (count > k_halvings) return false;

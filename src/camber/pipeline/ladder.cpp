@@ -1,3 +1,4 @@
+#include <camber/base/sorted_set.hpp>
 #include <camber/elevate/apply_field.hpp>
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/wall_repair.hpp>
@@ -6,11 +7,6 @@
 
 namespace camber {
 namespace {
-
-void make_unique(std::vector<Index>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
 
 /// Wall faces that the cells stand on: the foot of their column or their own faces on the wall; for
 /// a cell without either, the wall faces at the feet of its vertices.
@@ -40,7 +36,7 @@ std::vector<Index> feet(const LinearMesh& mesh, const Topology& topology, const 
     }
     if (standing >= 2) slots.push_back(static_cast<Index>(s));
   }
-  make_unique(slots);
+  make_sorted_set(slots);
   return slots;
 }
 
@@ -130,7 +126,7 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     }
     const std::vector<Index> lowered = placement.lower(caps);
     changed.insert(changed.end(), lowered.begin(), lowered.end());
-    make_unique(changed);
+    make_sorted_set(changed);
     if (changed.empty()) break;
     for (const auto& [slot, cap] : caps) result.lowered_faces.push_back(slot);
     std::vector<Index> again = cells_over(mesh, topology, wall, columns, changed);
@@ -144,10 +140,10 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
         }
       }
     }
-    make_unique(again);
+    make_sorted_set(again);
     bad = uncertified_cells(curved, again);
   }
-  make_unique(result.lowered_faces);
+  make_sorted_set(result.lowered_faces);
   std::erase_if(result.lowered_faces, [&](Index slot) {
     return placement.face_cap(slot) >= curved.face_order(wall.faces[at(slot)]);
   });

@@ -24,7 +24,6 @@ struct CurveOptions {
   TagOptions association;      // --patch
   bool allow_invalid = false;  // write even if something is not certified
   bool strict = false;         // faces over the deviation count as failure (exit code 3)
-  int threads = 0;             // 0: all
 };
 
 }  // namespace camber

@@ -1,3 +1,4 @@
+#include <camber/base/sorted_set.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/pipeline/wall_repair.hpp>
 #include <camber/smooth/surface_patch.hpp>
@@ -10,11 +11,6 @@ namespace camber {
 namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-void make_unique(std::vector<Index>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
 
 class WallRepair {
  public:
@@ -40,7 +36,7 @@ class WallRepair {
       const std::vector<Index> core = faces_around(slot);
       if (repair(core)) changed.insert(changed.end(), core.begin(), core.end());
     }
-    make_unique(changed);
+    make_sorted_set(changed);
     return changed;
   }
 
@@ -66,7 +62,7 @@ class WallRepair {
         if (patch_of(other) == patch_of(slot)) core.push_back(other);
       }
     }
-    make_unique(core);
+    make_sorted_set(core);
     return core;
   }
 

@@ -5,8 +5,8 @@
 namespace camber {
 
 /// h(tau) = (tau + sqrt(tau^2 + 4 delta^2)) / 2: tau itself for delta = 0, positive for every tau
-/// otherwise. Source: Escobar et al. 2003, doi 10.1016/S0045-7825(03)00342-5 (with delta for their
-/// delta).
+/// otherwise. Source: Escobar et al. 2003, Comput. Methods Appl. Mech. Engrg. 192,
+/// p. 2775.
 [[nodiscard]] double regularised_determinant(double tau, double delta);
 
 struct Distortion {

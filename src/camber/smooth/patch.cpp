@@ -1,4 +1,5 @@
 #include <camber/base/parallel.hpp>
+#include <camber/base/sorted_set.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/basis/quadrature.hpp>
 #include <camber/smooth/distortion.hpp>
@@ -10,7 +11,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
+#include <unordered_map>
 
 namespace camber {
 namespace {
@@ -22,11 +26,6 @@ constexpr double k_lattice_weight = 0.1;
 /// A repaired cell should keep at least this share of its straight Jacobian at every sample before
 /// the group is tested.
 constexpr double k_wanted_ratio = 0.05;
-
-void make_unique(std::vector<Index>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
 
 /// Regularisation of barely inverted groups, and its factor from round to round.
 constexpr double k_least_delta = 0.03;
@@ -54,9 +53,9 @@ class Patch {
       }
       if (!curved.cell_nodes(c).empty()) insides_.push_back(c);
     }
-    make_unique(edges_);
-    make_unique(faces_);
-    make_unique(insides_);
+    make_sorted_set(edges_);
+    make_sorted_set(faces_);
+    make_sorted_set(insides_);
     for (Index e : edges_) {
       for (Index c : topology.cells_of_edge(e)) cells_.push_back(c);
     }
@@ -66,7 +65,7 @@ class Patch {
       }
     }
     cells_.insert(cells_.end(), insides_.begin(), insides_.end());
-    make_unique(cells_);
+    make_sorted_set(cells_);
     for_each_entity([&](std::span<Vec3> nodes) { free_count_ += nodes.size(); });
   }
 
@@ -349,7 +348,7 @@ std::vector<Index> neighbours(const Topology& topology, const std::vector<Index>
       for (Index other : topology.cells_of_edge(e)) grown.push_back(other);
     }
   }
-  make_unique(grown);
+  make_sorted_set(grown);
   return grown;
 }
 
@@ -370,28 +369,26 @@ void straighten(CurvedMesh& curved, const CurvedMesh& straight, const std::vecto
   }
 }
 
-/// Groups whose ring-grown cells overlap.
+/// Groups of cells connected through shared edges, by their lowest cell.
 std::vector<std::vector<Index>> connected_groups(const Topology& topology,
                                                  const std::vector<Index>& cells) {
-  std::vector<std::vector<Index>> groups;
-  std::vector<std::uint8_t> is_taken(cells.size(), 0);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (is_taken[i]) continue;
-    is_taken[i] = 1;
-    std::vector<Index> group{cells[i]};
-    for (bool is_growing = true; is_growing;) {
-      is_growing = false;
-      const std::vector<Index> near = neighbours(topology, group);
-      for (std::size_t j = 0; j < cells.size(); ++j) {
-        if (is_taken[j] || !std::binary_search(near.begin(), near.end(), cells[j])) continue;
-        is_taken[j] = 1;
-        group.push_back(cells[j]);
-        is_growing = true;
-      }
+  std::vector<Index> parent(cells.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index i) {
+    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+    return i;
+  };
+  std::unordered_map<Index, Index> first_on_edge;
+  for (Index i = 0; at(i) < cells.size(); ++i) {
+    for (Index e : topology.edges_of_cell(cells[at(i)])) {
+      const Index a = root(first_on_edge.emplace(e, i).first->second), b = root(i);
+      parent[at(std::max(a, b))] = std::min(a, b);
     }
-    make_unique(group);
-    groups.push_back(std::move(group));
   }
+  std::map<Index, std::vector<Index>> by_root;
+  for (Index i = 0; at(i) < cells.size(); ++i) by_root[root(i)].push_back(cells[at(i)]);
+  std::vector<std::vector<Index>> groups;
+  for (auto& [first, group] : by_root) groups.push_back(std::move(group));
   return groups;
 }
 
