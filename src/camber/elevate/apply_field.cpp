@@ -34,10 +34,7 @@ void set_face(const LayerField& field, CurvedMesh& curved, Index f) {
   field.face(f, q, std::span(u.data(), nodes.size()));
   const Topology& topology = curved.topology();
   const Shape shape = topology.face_shape[at(f)];
-  std::array<Vec3, 4> corner;
-  const std::size_t n = static_cast<std::size_t>(topology.corners_of_face(f));
-  for (std::size_t i = 0; i < n; ++i) corner[i] = curved.vertex(topology.face2vertex[at(f)][i]);
-  const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
+  const Points straight = straight_face_nodes(curved.linear(), topology, f, q);
   const std::span<const int> inner = interior_nodes(shape, q);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     nodes[k] = field.constrained_face_point(f, straight[static_cast<std::size_t>(inner[k])] + u[k]);

@@ -65,13 +65,9 @@ void Placement::measure() {
 void Placement::measure_slot(Projector& projector, Index slot) {
   const Index f = wall_.faces[at(slot)];
   const Shape shape = topology_.face_shape[at(f)];
-  const std::size_t n = sz(topology_.corners_of_face(f));
   const GeometryGroup& group = association_.patches[at(association_.face2patch[at(f)])].group;
-  std::array<Vec3, 4> corner;
-  for (std::size_t i = 0; i < n; ++i)
-    corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
   for (int q = 1; q <= max_order_; ++q) {
-    Points nodes = straight_nodes(shape, q, std::span(corner.data(), n));
+    Points nodes = straight_face_nodes(mesh_, topology_, f, q);
     if (q > 1) {
       const std::span<const Vec3> moved = face_displacement(slot, q);
       for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += moved[i];

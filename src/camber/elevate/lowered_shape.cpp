@@ -1,4 +1,5 @@
 // Wall faces whose shape is of a lower order than they could have.
+#include <camber/base/sorted_set.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/elevate/blend.hpp>
 #include <camber/elevate/placement.hpp>
@@ -34,8 +35,7 @@ std::vector<Index> Placement::lower(const std::vector<std::pair<Index, int>>& ca
       if (slot != k_none) changed.push_back(slot);
     }
   }
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  make_sorted_set(changed);
   const std::unique_ptr<Projector> projector = model_.projector();
   for (Index slot : changed) {
     place_face(*projector, slot);
@@ -69,10 +69,6 @@ void Placement::cap_face(Index slot) {
   const int cap = face_cap_[at(slot)];
   const Index f = wall_.faces[at(slot)];
   const Shape shape = topology_.face_shape[at(f)];
-  const std::size_t n = sz(topology_.corners_of_face(f));
-  std::array<Vec3, 4> corner;
-  for (std::size_t i = 0; i < n; ++i)
-    corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
   for (int q = cap + 1; q <= max_order_; ++q) {
     const std::span<Vec3> moved{
         face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
@@ -95,7 +91,7 @@ void Placement::cap_face(Index slot) {
       for (int node : edge) beyond[sz(node)] -= low[sz(node)];
     }
     blend_face_interior(shape, q, beyond);
-    const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
+    const Points straight = straight_face_nodes(mesh_, topology_, f, q);
     std::size_t k = 0;
     for (int node : interior_nodes(shape, q)) {
       moved[sz(node)] = low[sz(node)] + beyond[sz(node)];

@@ -277,11 +277,7 @@ void Placement::set_edge(Index slot, int q, std::span<const Vec3> nodes) {
 void Placement::set_face(Index slot, int q, std::span<const Vec3> nodes) {
   const Index f = wall_.faces[at(slot)];
   const Shape shape = topology_.face_shape[at(f)];
-  const std::size_t n = sz(topology_.corners_of_face(f));
-  std::array<Vec3, 4> corner;
-  for (std::size_t i = 0; i < n; ++i)
-    corner[i] = mesh_.vertices[at(topology_.face2vertex[at(f)][i])];
-  const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
+  const Points straight = straight_face_nodes(mesh_, topology_, f, q);
   const std::span<Vec3> moved{
       face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
       straight.size()};
@@ -312,7 +308,7 @@ void Placement::place_face(Projector& projector, Index slot) {
 
   Points slide;  // of the order before
   for (int q = 2; q <= max_order_; ++q) {
-    const Points straight = straight_nodes(shape, q, std::span(corner.data(), n));
+    const Points straight = straight_face_nodes(mesh_, topology_, f, q);
     const std::span<Vec3> moved{
         face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
         sz(node_count(shape, q))};

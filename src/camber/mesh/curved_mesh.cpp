@@ -90,10 +90,7 @@ void CurvedMesh::straighten() {
       const std::span<Vec3> nodes = face_nodes(static_cast<Index>(f));
       if (nodes.empty()) continue;
       const Shape shape = t.face_shape[f];
-      std::array<Vec3, 4> corner;
-      const std::size_t n = static_cast<std::size_t>(t.corners_of_face(static_cast<Index>(f)));
-      for (std::size_t i = 0; i < n; ++i) corner[i] = vertex(t.face2vertex[f][i]);
-      const Points all = straight_nodes(shape, orders_.face[f], std::span(corner.data(), n));
+      const Points all = straight_face_nodes(*mesh_, t, static_cast<Index>(f), orders_.face[f]);
       const std::vector<int>& inner = lattice_map(shape, orders_.face[f]).interior;
       for (std::size_t i = 0; i < nodes.size(); ++i)
         nodes[i] = all[static_cast<std::size_t>(inner[i])];

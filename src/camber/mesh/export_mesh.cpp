@@ -276,25 +276,9 @@ class Exporter {
     }
     std::vector<int> slots(static_cast<std::size_t>(node_count(shape, p)));
     for (std::size_t k = 0; k < slots.size(); ++k) slots[k] = static_cast<int>(k);
-    put_face(f, p, view_of(f, v), slots, nodes);
-  }
-
-  [[nodiscard]] int view_of(Index f, const std::array<Index, 4>& viewer) const {
-    const Shape shape = topology_.face_shape[at(f)];
-    const std::span<const std::array<int, 4>> views = face_views(shape);
-    const std::size_t n = shape == Shape::triangle ? 3 : 4;
-    for (std::size_t w = 0; w < views.size(); ++w) {
-      bool same = true;
-      for (std::size_t i = 0; i < n; ++i) {
-        same = same &&
-               viewer[i] == topology_.face2vertex[at(f)][static_cast<std::size_t>(views[w][i])];
-      }
-      if (same) return static_cast<int>(w);
-    }
-    throw MeshError(
-        "a surface quadrilateral walks its corners differently from its cell",
-        mesh_.entity_name({2, mesh_.patch_face_entity[at(topology_.face2patch_face[at(f)])]}),
-        "repair the surface element");
+    // build_topology has refused twisted surface elements.
+    put_face(f, p, face_view(shape, std::span(v.data(), n), topology_.face2vertex[at(f)]), slots,
+             nodes);
   }
 
   /// A line takes the lowest order at which its edge is written: one that a neighbouring cell has.

@@ -1,4 +1,5 @@
 #include <camber/base/error.hpp>
+#include <camber/basis/lagrange.hpp>
 #include <camber/mesh/topology.hpp>
 
 #include <algorithm>
@@ -45,19 +46,6 @@ std::vector<std::array<int, 4>> make_views(int n) {
     }
   }
   return views;
-}
-
-std::uint8_t view_of(Shape shape, std::span<const Index> viewer,
-                     const std::array<Index, 4>& frame) {
-  const std::span<const std::array<int, 4>> views = face_views(shape);
-  for (std::size_t w = 0; w < views.size(); ++w) {
-    bool same = true;
-    for (std::size_t i = 0; i < viewer.size(); ++i) {
-      same = same && viewer[i] == frame[static_cast<std::size_t>(views[w][i])];
-    }
-    if (same) return static_cast<std::uint8_t>(w);
-  }
-  return 0xff;
 }
 
 std::array<Index, 4> corners_of(const LinearMesh& mesh, Index cell, const LocalFace& face) {
@@ -134,15 +122,15 @@ void build_faces(const LinearMesh& mesh, Topology& topology) {
       cells[1] = here.cell;
     }
     topology.cell2face[at(here.slot)] = static_cast<Index>(topology.face_shape.size() - 1);
-    const std::uint8_t view = view_of(face.shape, used(v, face.shape), topology.face2vertex.back());
-    if (view == 0xff) {
+    const int view = face_view(face.shape, used(v, face.shape), topology.face2vertex.back());
+    if (view < 0) {
       throw MeshError(
           fmt::format("cells {} and {} share four vertices but walk the face differently",
                       mesh.cell_tags[at(topology.face2cell.back()[0])],
                       mesh.cell_tags[at(here.cell)]),
           "mesh topology", "the quadrilateral face is twisted: repair these cells");
     }
-    topology.cell2face_view[at(here.slot)] = view;
+    topology.cell2face_view[at(here.slot)] = static_cast<std::uint8_t>(view);
   }
   topology.face2edge.resize(topology.face_count());
   for (std::size_t f = 0; f < topology.face_count(); ++f) {
@@ -177,7 +165,7 @@ void link_patch_faces(const LinearMesh& mesh, Topology& topology) {
     }
     const std::size_t f = at(found->second);
     const std::span<const Index> walk = used(mesh.patch_face_vertices[b], mesh.patch_face_shape[b]);
-    if (view_of(topology.face_shape[f], walk, topology.face2vertex[f]) == 0xff) {
+    if (face_view(topology.face_shape[f], walk, topology.face2vertex[f]) < 0) {
       const Vec3& x = mesh.vertices[at(key.v[0])];
       throw MeshError(fmt::format("a quad of {} walks its corners differently from its cell",
                                   mesh.entity_name({2, mesh.patch_face_entity[b]})),
@@ -212,6 +200,25 @@ std::span<const std::array<int, 4>> face_views(Shape shape) {
   static const std::vector<std::array<int, 4>> triangle = make_views(3);
   static const std::vector<std::array<int, 4>> quadrilateral = make_views(4);
   return shape == Shape::triangle ? triangle : quadrilateral;
+}
+
+int face_view(Shape shape, std::span<const Index> viewer, const std::array<Index, 4>& frame) {
+  const std::span<const std::array<int, 4>> views = face_views(shape);
+  for (std::size_t w = 0; w < views.size(); ++w) {
+    bool same = true;
+    for (std::size_t i = 0; i < viewer.size(); ++i) {
+      same = same && viewer[i] == frame[static_cast<std::size_t>(views[w][i])];
+    }
+    if (same) return static_cast<int>(w);
+  }
+  return -1;
+}
+
+Points straight_face_nodes(const LinearMesh& mesh, const Topology& topology, Index f, int q) {
+  std::array<Vec3, 4> corner;
+  const std::size_t n = static_cast<std::size_t>(topology.corners_of_face(f));
+  for (std::size_t i = 0; i < n; ++i) corner[i] = mesh.vertices[at(topology.face2vertex[at(f)][i])];
+  return straight_nodes(topology.face_shape[at(f)], q, std::span(corner.data(), n));
 }
 
 std::span<const int> face_view_nodes(Shape shape, int view, int p) {

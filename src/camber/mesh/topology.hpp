@@ -61,6 +61,13 @@ struct Topology {
 /// The views of a face: view w maps corner i of the viewer to corner face_view(shape, w)[i] of the
 /// frame. Triangle 6 views, quadrilateral 8.
 [[nodiscard]] std::span<const std::array<int, 4>> face_views(Shape shape);
+/// The view of a face (frame corners as in face2vertex) for a viewer who lists its corners in
+/// another order, or -1 if the viewer walks other corners or twists a quadrilateral.
+[[nodiscard]] int face_view(Shape shape, std::span<const Index> viewer,
+                            const std::array<Index, 4>& frame);
+/// Lattice nodes of order q of the straight face, in its frame.
+[[nodiscard]] Points straight_face_nodes(const LinearMesh& mesh, const Topology& topology, Index f,
+                                         int q);
 /// The node permutations that belong to them: result[n] = frame node at the viewer's node n.
 [[nodiscard]] std::span<const int> face_view_nodes(Shape shape, int view, int p);
 

@@ -92,7 +92,6 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
                    const Columns& columns, const std::vector<Index>& pinched,
                    const std::vector<Index>& uncertified) {
   LadderResult result;
-  result.uncertified_at_start = uncertified.size();
   result.pinched = pinched;
   const LinearMesh& mesh = curved.linear();
   const Topology& topology = curved.topology();

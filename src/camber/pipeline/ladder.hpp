@@ -10,7 +10,6 @@
 namespace camber {
 
 struct LadderResult {
-  std::size_t uncertified_at_start = 0;
   std::size_t patches_repaired = 0;     // groups of cells mended by moving volume nodes only
   std::size_t wall_faces_smoothed = 0;  // faces whose nodes slid along the CAD
   std::vector<Index> lowered_faces;     // wall face slots whose shape was lowered below their order

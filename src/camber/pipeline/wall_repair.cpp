@@ -76,12 +76,7 @@ class WallRepair {
   }
 
   [[nodiscard]] Points lattice_of(Index slot, int q) const {
-    const Index f = wall_.faces[at(slot)];
-    std::array<Vec3, 4> corner;
-    const std::size_t n = sz(corner_total(slot));
-    for (std::size_t i = 0; i < n; ++i)
-      corner[i] = mesh_.vertices[at(vertex(slot, static_cast<int>(i)))];
-    return straight_nodes(topology_.face_shape[at(f)], q, std::span(corner.data(), n));
+    return straight_face_nodes(mesh_, topology_, wall_.faces[at(slot)], q);
   }
 
   [[nodiscard]] SurfaceFoot foot(Index slot, const Vec3& x) const {
