@@ -54,6 +54,13 @@ class WallRepair {
     return wall_.edge_slot[at(topology_.face2edge[at(wall_.faces[at(slot)])][sz(i)])];
   }
 
+  /// The face's frame goes round clockwise seen from outside.
+  [[nodiscard]] bool walks_inwards(Index slot) const {
+    const Vec3 &a = mesh_.vertices[at(vertex(slot, 0))], &b = mesh_.vertices[at(vertex(slot, 1))],
+               &c = mesh_.vertices[at(vertex(slot, 2))];
+    return (b - a).cross(c - a).dot(wall_.facet_normal[at(slot)]) < 0.0;
+  }
+
   /// The face and all faces of its patch that share a vertex with it.
   [[nodiscard]] std::vector<Index> faces_around(Index slot) const {
     std::vector<Index> core;
@@ -79,30 +86,22 @@ class WallRepair {
     return straight_face_nodes(mesh_, topology_, wall_.faces[at(slot)], q);
   }
 
-  [[nodiscard]] SurfaceFoot foot(Index slot, const Vec3& x) const {
-    const Projection p =
-        project_to_group(*projector_, association_.patches[at(patch_of(slot))].group, x);
-    Vec3 reference = Vec3::Zero();
-    for (Index c : wall_.face_corners[at(slot)]) {
-      if (c != k_none) reference += wall_.corners[at(c)].normal;
-    }
-    reference.normalize();
-    if (p.status == ProjectionStatus::failed) return {x, reference};
-    Vec3 normal = projector_->evaluate_face(p.entity.tag, p.uv).normal;
-    if (normal.dot(reference) < 0.0) normal = -normal;
-    return {p.point, normal.norm() > 0.5 ? normal : reference};
+  [[nodiscard]] Projection foot(Index slot, const Vec3& x) const {
+    return project_to_group(*projector_, association_.patches[at(patch_of(slot))].group, x);
   }
 
   bool repair(const std::vector<Index>& core) {
     const int q = placement_.max_order();
     SurfacePatch patch;
     patch.order = q;
-    std::vector<Index> owner;                       // node -> face slot whose patch it lies on
+    std::vector<int> surface;                       // node -> CAD face it slides on
     std::map<Index, Index> vertex_node, edge_node;  // first node
     const auto add = [&](const Vec3& x, bool is_free, Index slot) {
       patch.nodes.push_back(x);
-      patch.is_free.push_back(is_free);
-      owner.push_back(slot);
+      const Projection p = is_free ? foot(slot, x) : Projection{};
+      patch.is_free.push_back(p.status != ProjectionStatus::failed);
+      patch.uv.push_back(p.uv);
+      surface.push_back(p.entity.tag);
       return static_cast<Index>(patch.nodes.size() - 1);
     };
     std::vector<Index> face_node;  // first interior node by core face
@@ -115,7 +114,8 @@ class WallRepair {
       face.straight = lattice_of(slot, q);
       face.nodes.assign(face.straight.size(), k_none);
       for (int i = 0; i < corner_total(slot); ++i) {
-        face.corner_normal[sz(i)] = wall_.corners[at(wall_.face_corners[at(slot)][sz(i)])].normal;
+        const Vec3& out = wall_.corners[at(wall_.face_corners[at(slot)][sz(i)])].normal;
+        face.corner_normal[sz(i)] = walks_inwards(slot) ? Vec3(-out) : out;
         const Index v = vertex(slot, i);
         if (!vertex_node.contains(v)) vertex_node[v] = add(mesh_.vertices[at(v)], false, slot);
         face.nodes[sz(map.corner[sz(i)])] = vertex_node[v];
@@ -141,8 +141,10 @@ class WallRepair {
       }
       patch.faces.push_back(std::move(face));
     }
-    const bool is_repaired =
-        smooth_surface(patch, [&](Index node, const Vec3& x) { return foot(owner[at(node)], x); });
+    const bool is_repaired = smooth_surface(patch, [&](Index node, const Vec2& uv) {
+      const SurfacePoint s = projector_->evaluate_face(surface[at(node)], uv);
+      return SurfaceSample{s.point, s.du, s.dv};
+    });
     if (!is_repaired) return false;
     store(core, patch, edge_node, face_node);
     return true;

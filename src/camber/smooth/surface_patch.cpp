@@ -1,5 +1,6 @@
 #include <camber/basis/lagrange.hpp>
 #include <camber/basis/quadrature.hpp>
+#include <camber/metric/weight_matrix.hpp>
 #include <camber/smooth/distortion.hpp>
 #include <camber/smooth/lbfgs.hpp>
 #include <camber/smooth/surface_patch.hpp>
@@ -14,13 +15,16 @@ namespace {
 using Mat32 = Eigen::Matrix<double, 3, 2>;
 using Mat2 = Eigen::Matrix2d;
 
-constexpr int k_rounds = 12;
-constexpr int k_iterations = 30;
+constexpr int k_rounds = 16;
+constexpr int k_iterations = 40;
 /// tau that every sample must reach for the patch to count as repaired.
-constexpr double k_clear = 0.05;
+constexpr double k_clear = 0.02;
 constexpr double k_least_delta = 0.05;
 constexpr double k_delta_shrink = 0.7;
 constexpr double k_longest_step = 0.5;
+
+/// Where the two directions of a surface are closer to parallel than this (a pole) a node stays.
+constexpr double k_least_rcond = 1e-8;
 
 struct Sample {
   Mat2 W_inverse;
@@ -44,7 +48,20 @@ Mat2 in_own_plane(const Mat32& W) {
   return flat;
 }
 
-FaceSamples sample_face(const SurfaceFace& face, int order) {
+/// Length of the curved edge from corner i to the next one, as the chain of its nodes.
+double edge_length(const SurfacePatch& patch, const SurfaceFace& face, std::size_t i) {
+  const std::vector<int>& edge = lattice_map(face.shape, patch.order).edge[i];
+  double length = 0.0;
+  for (std::size_t k = 0; k + 1 < edge.size(); ++k) {
+    length += (patch.nodes[at(face.nodes[static_cast<std::size_t>(edge[k + 1])])] -
+               patch.nodes[at(face.nodes[static_cast<std::size_t>(edge[k])])])
+                  .norm();
+  }
+  return length;
+}
+
+FaceSamples sample_face(const SurfacePatch& patch, const SurfaceFace& face) {
+  const int order = patch.order;
   FaceSamples result{&face, {}};
   const Quadrature& rule = gauss(face.shape, 2 * order);
   std::vector<Vec3> points = rule.points;
@@ -56,7 +73,14 @@ FaceSamples sample_face(const SurfaceFace& face, int order) {
   }
   std::vector<Vec3> dN(face.nodes.size());
   std::array<double, 4> N{};
-  const std::size_t corner_total = face.shape == Shape::triangle ? 3 : 4;
+  const bool is_triangle = face.shape == Shape::triangle;
+  const std::size_t corner_total = is_triangle ? 3 : 4;
+  Mat2 unrolled = Mat2::Zero();
+  if (is_triangle) {
+    unrolled = triangle_weight_matrix<double>(
+        {edge_length(patch, face, 0), edge_length(patch, face, 2), edge_length(patch, face, 1)});
+  }
+  const bool is_unrolled = unrolled.determinant() > 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     lagrange_gradients(face.shape, order, points[i], dN);
     Sample s;
@@ -66,7 +90,7 @@ FaceSamples sample_face(const SurfaceFace& face, int order) {
       s.gradient.row(static_cast<Eigen::Index>(n)) = dN[n].head<2>().transpose();
       W += face.straight[n] * dN[n].head<2>().transpose();
     }
-    s.W_inverse = in_own_plane(W).inverse();
+    s.W_inverse = (is_unrolled ? unrolled : in_own_plane(W)).inverse();
     s.weight = weights[i];
     lagrange_values(face.shape, 1, points[i], std::span(N.data(), corner_total));
     s.normal.setZero();
@@ -80,42 +104,49 @@ FaceSamples sample_face(const SurfaceFace& face, int order) {
   return result;
 }
 
-/// Energy and least tau of the patch for tangential moves of its free nodes.
+/// Energy and least tau of the patch as functions of where its free nodes are on their surfaces.
 class SurfaceEnergy {
  public:
-  SurfaceEnergy(const SurfacePatch& patch, std::vector<Vec3> normals) : patch_(patch) {
-    free_number_.assign(patch.nodes.size(), k_none);
+  SurfaceEnergy(const SurfacePatch& patch, const OnSurface& on_surface)
+      : patch_(patch), on_surface_(on_surface), x_(patch.nodes), slope_(patch.nodes.size()) {
     for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
       if (!patch.is_free[i]) continue;
-      free_number_[i] = static_cast<Index>(frames_.size());
+      const SurfaceSample start = on_surface(static_cast<Index>(i), patch.uv[i]);
+      Mat32 tangents;
+      tangents << start.du, start.dv;
+      // uv = uv0 + M t with orthonormal columns of dx/dt at the start.
+      const Eigen::LLT<Mat2> metric(tangents.transpose() * tangents);
+      if (metric.info() != Eigen::Success || !(metric.rcond() > k_least_rcond)) continue;
       free_nodes_.push_back(static_cast<Index>(i));
-      const Vec3& n = normals[i];
-      const Vec3 a = n.unitOrthogonal();
-      Mat32 frame;
-      frame << a, n.cross(a);
-      frames_.push_back(frame);
+      scale_.push_back(metric.matrixU().solve(Mat2::Identity()));
     }
-    for (const SurfaceFace& face : patch.faces) faces_.push_back(sample_face(face, patch.order));
+    free_tangents_.resize(free_nodes_.size());
+    for (const SurfaceFace& face : patch.faces) faces_.push_back(sample_face(patch, face));
   }
 
-  [[nodiscard]] Eigen::Index size() const { return 2 * static_cast<Eigen::Index>(frames_.size()); }
-  [[nodiscard]] const std::vector<Index>& free_nodes() const { return free_nodes_; }
-
-  [[nodiscard]] Vec3 position(Index node, const VecX& t) const {
-    const Index k = free_number_[at(node)];
-    if (k == k_none) return patch_.nodes[at(node)];
-    return patch_.nodes[at(node)] + frames_[at(k)] * t.segment<2>(2 * k);
+  [[nodiscard]] Eigen::Index size() const {
+    return 2 * static_cast<Eigen::Index>(free_nodes_.size());
   }
 
-  double evaluate(const VecX& t, double delta, VecX& gradient, double* least = nullptr) const {
-    gradient.setZero(t.size());
+  [[nodiscard]] Vec2 parameters(std::size_t k, const VecX& t) const {
+    return patch_.uv[at(free_nodes_[k])] +
+           scale_[k] * t.segment<2>(2 * static_cast<Eigen::Index>(k));
+  }
+
+  double evaluate(const VecX& t, double delta, VecX& gradient, double* least = nullptr) {
+    for (std::size_t k = 0; k < free_nodes_.size(); ++k) {
+      const SurfaceSample s = on_surface_(free_nodes_[k], parameters(k, t));
+      x_[at(free_nodes_[k])] = s.point;
+      free_tangents_[k] << s.du, s.dv;
+    }
+    std::fill(slope_.begin(), slope_.end(), Vec3::Zero());
     double energy = 0.0;
     if (least) *least = std::numeric_limits<double>::infinity();
     for (const FaceSamples& fs : faces_) {
       const Eigen::Index n = static_cast<Eigen::Index>(fs.face->nodes.size());
       MatX x(n, 3);
       for (Eigen::Index i = 0; i < n; ++i) {
-        x.row(i) = position(fs.face->nodes[static_cast<std::size_t>(i)], t).transpose();
+        x.row(i) = x_[at(fs.face->nodes[static_cast<std::size_t>(i)])].transpose();
       }
       MatX slope = MatX::Zero(n, 3);
       for (const Sample& s : fs.samples) {
@@ -134,15 +165,18 @@ class SurfaceEnergy {
         slope.noalias() += s.gradient * (dT * s.W_inverse.transpose()).transpose();
       }
       for (Eigen::Index i = 0; i < n; ++i) {
-        const Index k = free_number_[at(fs.face->nodes[static_cast<std::size_t>(i)])];
-        if (k != k_none)
-          gradient.segment<2>(2 * k) += frames_[at(k)].transpose() * slope.row(i).transpose();
+        slope_[at(fs.face->nodes[static_cast<std::size_t>(i)])] += slope.row(i).transpose();
       }
+    }
+    gradient.resize(t.size());
+    for (std::size_t k = 0; k < free_nodes_.size(); ++k) {
+      gradient.segment<2>(2 * static_cast<Eigen::Index>(k)) =
+          (free_tangents_[k] * scale_[k]).transpose() * slope_[at(free_nodes_[k])];
     }
     return energy;
   }
 
-  [[nodiscard]] double least_tau(const VecX& t) const {
+  [[nodiscard]] double least_tau(const VecX& t) {
     VecX gradient(t.size());
     double least = 0.0;
     evaluate(t, 1.0, gradient, &least);
@@ -150,59 +184,67 @@ class SurfaceEnergy {
   }
 
   [[nodiscard]] VecX inverse_diagonal() const {
-    VecX diagonal = VecX::Zero(size());
+    std::vector<double> stiffness(patch_.nodes.size(), 0.0);
     for (const FaceSamples& fs : faces_) {
       for (const Sample& s : fs.samples) {
         const MatX g = s.gradient * s.W_inverse;
         for (Eigen::Index i = 0; i < g.rows(); ++i) {
-          const Index k = free_number_[at(fs.face->nodes[static_cast<std::size_t>(i)])];
-          if (k != k_none) diagonal.segment<2>(2 * k).array() += s.weight * g.row(i).squaredNorm();
+          stiffness[at(fs.face->nodes[static_cast<std::size_t>(i)])] +=
+              s.weight * g.row(i).squaredNorm();
         }
       }
     }
-    return diagonal.cwiseMax(1e-300).cwiseInverse();
+    VecX inverse(size());
+    for (std::size_t k = 0; k < free_nodes_.size(); ++k) {
+      inverse.segment<2>(2 * static_cast<Eigen::Index>(k))
+          .setConstant(1.0 / std::max(stiffness[at(free_nodes_[k])], 1e-300));
+    }
+    return inverse;
+  }
+
+  /// Puts the free nodes of the patch to where t says.
+  void store(const VecX& t, SurfacePatch& patch) const {
+    for (std::size_t k = 0; k < free_nodes_.size(); ++k) {
+      const std::size_t node = at(free_nodes_[k]);
+      patch.uv[node] = parameters(k, t);
+      patch.nodes[node] = on_surface_(free_nodes_[k], patch.uv[node]).point;
+    }
   }
 
  private:
   const SurfacePatch& patch_;
-  std::vector<Index> free_number_, free_nodes_;
-  std::vector<Mat32> frames_;
+  const OnSurface& on_surface_;
+  std::vector<Index> free_nodes_;
+  std::vector<Mat2> scale_;
   std::vector<FaceSamples> faces_;
+  // Work space of evaluate().
+  Points x_, slope_;
+  std::vector<Mat32> free_tangents_;
 };
 
 }  // namespace
 
-bool smooth_surface(SurfacePatch& patch, const OntoSurface& onto) {
-  const Points start = patch.nodes;
-  std::vector<Vec3> normals(patch.nodes.size(), Vec3::UnitZ());
-  for (std::size_t i = 0; i < patch.nodes.size(); ++i) {
-    if (patch.is_free[i]) normals[i] = onto(static_cast<Index>(i), patch.nodes[i]).normal;
-  }
+bool smooth_surface(SurfacePatch& patch, const OnSurface& on_surface) {
+  SurfaceEnergy energy(patch, on_surface);
+  if (energy.size() == 0) return false;
+  VecX t = VecX::Zero(energy.size());
+  const VecX inverse_diagonal = energy.inverse_diagonal();
+  LbfgsOptions options;
+  options.max_iterations = k_iterations;
+  options.longest_step = k_longest_step;
+  double least = energy.least_tau(t);
   for (int round = 0; round < k_rounds; ++round) {
-    const SurfaceEnergy energy(patch, normals);
-    if (energy.size() == 0) break;
-    VecX t = VecX::Zero(energy.size());
-    const double least = energy.least_tau(t);
-    if (round > 0 && least > k_clear) return true;
     const double delta = least > 0.0 ? 0.0
                                      : std::max(k_least_delta, 0.3 * std::abs(least)) *
                                            std::pow(k_delta_shrink, round);
-    LbfgsOptions options;
-    options.max_iterations = k_iterations;
-    options.longest_step = k_longest_step;
     minimise_lbfgs([&](const VecX& y, VecX& g) { return energy.evaluate(y, delta, g); }, t,
-                   energy.inverse_diagonal(), options);
-    std::vector<std::pair<Index, SurfaceFoot>> feet;
-    for (Index node : energy.free_nodes())
-      feet.emplace_back(node, onto(node, energy.position(node, t)));
-    for (const auto& [node, foot] : feet) {
-      patch.nodes[at(node)] = foot.point;
-      normals[at(node)] = foot.normal;
+                   inverse_diagonal, options);
+    least = energy.least_tau(t);
+    if (least > k_clear) {
+      energy.store(t, patch);
+      return true;
     }
   }
-  const SurfaceEnergy energy(patch, normals);
-  if (energy.size() > 0 && energy.least_tau(VecX::Zero(energy.size())) > k_clear) return true;
-  patch.nodes = start;
   return false;
 }
 
