@@ -20,7 +20,7 @@ struct UntangleOptions {
   int iterations_per_round = 40;
   std::size_t max_cells = 4000;  // a larger patch is left alone
   // Work limits, counted in evaluations of one cell: for one group, and for all groups of a call.
-  std::size_t evaluations_per_group = 100000, evaluations = 500000;
+  std::size_t evaluations_per_group = 400000, evaluations = 1000000;
 };
 
 struct UntangleResult {
