@@ -87,6 +87,7 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"deviation-length", flags.deviation_length},
       {"propagate", flags.propagation},
       {"unit", flags.unit},
+      {"split-pinched", yes_no(options.split_pinched)},
       {"allow-invalid", yes_no(options.allow_invalid)},
       {"strict", yes_no(options.strict)}};
   if (!flags.patches.empty()) {
@@ -212,6 +213,9 @@ Verb add_curve(CLI::App& app) {
       ->type_name("NAME=RULE")
       ->expected(1)
       ->take_all();
+  verb->add_flag("--split-pinched", flags->options.split_pinched,
+                 "cut cells whose corner has three edges on one smooth CAD face, which no curving "
+                 "can leave valid, from their centre; default: leave and list them");
   verb->add_flag("--allow-invalid", flags->options.allow_invalid,
                  "write even if an element is not certified; default: write nothing, exit code 3");
   verb->add_flag("--strict", flags->options.strict, "faces over the deviation give exit code 3");

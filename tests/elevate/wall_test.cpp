@@ -1,4 +1,3 @@
-#include <camber/elevate/pinched.hpp>
 #include <camber/geom/analytic_model.hpp>
 
 #include <algorithm>
@@ -50,47 +49,6 @@ TEST(Wall, HasEveryFaceAndEdgeOfTheCadOnce) {
     EXPECT_NE(b, k_none);
     EXPECT_NE(a, b);
   }
-}
-
-/// Octahedron in a sphere: eight tets around its centre, or four around an axis, each of which has
-/// two faces on the sphere.
-MeshData ball_of_tets(bool with_pinched) {
-  MeshData data;
-  data.source = "ball";
-  data.points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  ElementBlock tets{Shape::tetrahedron, 1, 1, {}, {}}, wall{Shape::triangle, 1, 1, {}, {}};
-  const auto add = [&](Index a, Index b, Index c, Index d) {
-    const Vec3& o = data.points[at(a)];
-    const double volume =
-        (data.points[at(b)] - o).cross(data.points[at(c)] - o).dot(data.points[at(d)] - o);
-    if (volume < 0.0) std::swap(b, c);
-    tets.nodes.insert(tets.nodes.end(), {a, b, c, d});
-  };
-  if (!with_pinched) data.points.emplace_back(0, 0, 0);
-  for (Index x : {0, 1}) {
-    for (Index y : {2, 3}) {
-      for (Index z : {4, 5}) {
-        wall.nodes.insert(wall.nodes.end(), {x, y, z});
-        if (!with_pinched) add(6, x, y, z);
-      }
-      if (with_pinched) add(4, 5, x, y);
-    }
-  }
-  data.blocks = {tets, wall};
-  return data;
-}
-
-TEST(Pinched, FindsTetsWithTwoFacesOnOneSurface) {
-  const auto pinched = make_case(ball_of_tets(true), make_sphere(Vec3::Zero(), 1.0), 2);
-  EXPECT_EQ(
-      find_pinched_cells(pinched->mesh, pinched->topology, pinched->association, pinched->wall),
-      (std::vector<Index>{0, 1, 2, 3}));
-}
-
-TEST(Pinched, FindsNothingWhereEveryCellHasAnInnerVertex) {
-  const auto sound = make_case(ball_of_tets(false), make_sphere(Vec3::Zero(), 1.0), 2);
-  EXPECT_TRUE(
-      find_pinched_cells(sound->mesh, sound->topology, sound->association, sound->wall).empty());
 }
 
 }  // namespace

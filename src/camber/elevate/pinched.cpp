@@ -1,3 +1,4 @@
+#include <camber/base/sorted_set.hpp>
 #include <camber/elevate/pinched.hpp>
 
 #include <algorithm>
@@ -25,8 +26,7 @@ std::vector<Index> find_pinched_cells(const LinearMesh& mesh, const Topology& to
   for (Index e : wall.edges) {
     for (Index c : topology.cells_of_edge(e)) candidates.push_back(c);
   }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  make_sorted_set(candidates);
 
   std::vector<Index> pinched;
   for (Index c : candidates) {
@@ -58,6 +58,26 @@ std::vector<Index> find_pinched_cells(const LinearMesh& mesh, const Topology& to
     if (is_pinched) pinched.push_back(c);
   }
   return pinched;
+}
+
+std::vector<Index> edges_behind_pinched_tets(const LinearMesh& mesh, const Topology& topology,
+                                             const Wall& wall, const std::vector<Index>& pinched) {
+  std::vector<Index> behind;
+  for (Index c : pinched) {
+    if (mesh.cell_shape[at(c)] != Shape::tetrahedron) continue;
+    // The corner that a wall face lacks is an end of the edge wanted.
+    std::vector<Index> ends;
+    for (Index f : topology.faces_of_cell(c)) {
+      if (wall.face_slot[at(f)] == k_none) continue;
+      const std::array<Index, 4>& corners = topology.face2vertex[at(f)];
+      for (Index v : mesh.cell(c)) {
+        if (std::find(corners.begin(), corners.end(), v) == corners.end()) ends.push_back(v);
+      }
+    }
+    if (ends.size() == 2) behind.push_back(topology.find_edge(ends[0], ends[1]));
+  }
+  make_sorted_set(behind);
+  return behind;
 }
 
 }  // namespace camber

@@ -13,4 +13,11 @@ namespace camber {
                                                     const Association& association,
                                                     const Wall& wall);
 
+/// Edges inside the volume whose removal (mesh/split_cells.hpp) parts the two wall faces of pinched
+/// tets: of a tet with two faces on the wall, the edge opposite to the one they share. Sorted.
+[[nodiscard]] std::vector<Index> edges_behind_pinched_tets(const LinearMesh& mesh,
+                                                           const Topology& topology,
+                                                           const Wall& wall,
+                                                           const std::vector<Index>& pinched);
+
 }  // namespace camber

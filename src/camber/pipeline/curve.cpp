@@ -6,6 +6,7 @@
 #include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/summary.hpp>
+#include <camber/pipeline/unpinch.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -78,17 +79,24 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   progress("topology", 0.0);
   result.linear = std::make_unique<LinearMesh>(build_linear_mesh(data));
   result.topology = std::make_unique<Topology>(build_topology(*result.linear));
-  const LinearMesh& mesh = *result.linear;
-  const Topology& topology = *result.topology;
 
   watch.next("associate");
   progress("associate", 0.1);
   fit_cad_scale(data, geometry, options.scale);
-  result.association = associate_by_tags(mesh, topology, geometry, options.association);
+  const Relink link = [&](CurveResult& linked) {
+    linked.association =
+        associate_by_tags(*linked.linear, *linked.topology, geometry, options.association);
+    return build_wall(*linked.linear, *linked.topology, linked.association, geometry);
+  };
+  Wall wall = link(result);
+  std::vector<Index> pinched =
+      find_pinched_cells(*result.linear, *result.topology, result.association, wall);
+  if (options.split_pinched) pinched = unpinch(result, wall, std::move(pinched), link);
+  const LinearMesh& mesh = *result.linear;
+  const Topology& topology = *result.topology;
 
   watch.next("place");
   progress("place", 0.2);
-  const Wall wall = build_wall(mesh, topology, result.association, geometry);
   Placement placement(mesh, topology, result.association, geometry, wall, options.orders.max_order);
 
   watch.next("elevate");
@@ -116,7 +124,6 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("rescue");
   progress("rescue", 0.8);
-  const std::vector<Index> pinched = find_pinched_cells(mesh, topology, result.association, wall);
   const LadderResult ladder = climb(*result.curved, result.association, geometry, placement, field,
                                     wall, columns, pinched, uncertified);
 

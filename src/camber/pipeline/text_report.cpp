@@ -215,6 +215,12 @@ void add_quality(const Report& report, std::string& out) {
 
 void add_rescue(const Report& report, std::string& out) {
   const auto& r = report.rescue;
+  if (r.edges_removed + r.pinched_split > 0) {
+    out += fmt::format(
+        "\nPinched between faces of one surface: {} edges behind such tets removed, {} cells cut "
+        "from their centre\n",
+        r.edges_removed, r.pinched_split);
+  }
   if (r.scaled_back + r.orders_lowered + r.pinched + r.places.size() == 0) return;
   out += "\nRescue (where no valid curved state was found)\n";
   out += fmt::format(

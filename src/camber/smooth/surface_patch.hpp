@@ -35,9 +35,9 @@ using OnSurface = std::function<SurfaceSample(Index node, const Vec2& uv)>;
 /// of the weighted condition number ([karman2022] eq. (4)) with the signed area ratio tau = ((dT/dx
 /// x dT/dy) . n), n the interpolated corner normal, regularised to h while some tau <= 0. The ideal
 /// W of a triangle has the lengths of its curved edges as they are given: where the surface turns
-/// inside a face the straight one may be a sliver, or stand upright, when the curved one is neither.
-/// Quadrilaterals take the straight face's. The unknowns are the parameters of the free nodes
-/// (L-BFGS, in units of length at the start), so that every state lies on the surface.
+/// inside a face the straight one may be a sliver, or stand upright, when the curved one is
+/// neither. Quadrilaterals take the straight face's. The unknowns are the parameters of the free
+/// nodes (L-BFGS, in units of length at the start), so that every state lies on the surface.
 /// @return true if every sample ends with tau clearly positive; else nodes and parameters are as
 /// they were given
 [[nodiscard]] bool smooth_surface(SurfacePatch& patch, const OnSurface& on_surface);
