@@ -87,6 +87,7 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"deviation-length", flags.deviation_length},
       {"propagate", flags.propagation},
       {"unit", flags.unit},
+      {"fit", yes_no(options.fit)},
       {"split-pinched", yes_no(options.split_pinched)},
       {"allow-invalid", yes_no(options.allow_invalid)},
       {"strict", yes_no(options.strict)}};
@@ -213,6 +214,9 @@ Verb add_curve(CLI::App& app) {
       ->type_name("NAME=RULE")
       ->expected(1)
       ->take_all();
+  verb->add_flag("--fit", flags->options.fit,
+                 "slide wall nodes along the CAD until the faces follow it as closely as their "
+                 "order can; default: evenly spread nodes");
   verb->add_flag("--split-pinched", flags->options.split_pinched,
                  "cut cells whose corner has three edges on one smooth CAD face, which no curving "
                  "can leave valid, from their centre; default: leave and list them");

@@ -53,6 +53,17 @@ TEST(CurveOptions, OrderOneLeavesTheMeshLinear) {
   expect_promises(result);
 }
 
+TEST(CurveOptions, FittingWallNodesBringsCubicFacesMuchNearerToTheCad) {
+  CurveOptions options = order(3);
+  options.orders.min_order = 3;
+  const double evenly_spread = curve_case("ball", options).report.surface.average;
+  options.fit = true;
+  const CurveResult fitted = curve_case("ball", options);
+
+  EXPECT_LT(fitted.report.surface.average, 0.1 * evenly_spread);
+  expect_promises(fitted);
+}
+
 TEST(CurveOptions, UniformWritesAllCellsAtTheHighestOrderWithTheSameShape) {
   CurveOptions options = order(3);
   options.uniform = true;

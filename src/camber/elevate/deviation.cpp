@@ -56,6 +56,7 @@ void Placement::measure() {
       [&](std::size_t begin, std::size_t end, std::unique_ptr<Projector>& projector) {
         for (std::size_t s = begin; s < end; ++s) measure_edge(*projector, static_cast<Index>(s));
       });
+  largest_ = 0.0;
   for (const Points& moved :
        {edge_displacement_[sz(max_order_)], face_displacement_[sz(max_order_)]}) {
     for (const Vec3& d : moved) largest_ = std::max(largest_, d.norm());

@@ -42,6 +42,8 @@ class Placement {
   /// were changed the faces on them must be set too, or their displacement keeps the old edge.
   void set_edge(Index slot, int q, std::span<const Vec3> nodes);
   void set_face(Index slot, int q, std::span<const Vec3> nodes);
+  /// Measures all deviations again, after nodes were set.
+  void measure();
 
   /// Caps the order of shape of some faces (slots): above its cap a face's nodes are those of the
   /// cap's polynomial, elevated. Caps only fall. Their edges inside a patch follow; edges on CAD
@@ -70,7 +72,6 @@ class Placement {
  private:
   void place_edges();
   void place_faces();
-  void measure();
   void place_edge(Projector& projector, Index slot);
   void place_face(Projector& projector, Index slot);
   void measure_slot(Projector& projector, Index slot);

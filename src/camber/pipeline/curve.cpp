@@ -7,6 +7,7 @@
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/summary.hpp>
 #include <camber/pipeline/unpinch.hpp>
+#include <camber/pipeline/wall_repair.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -68,6 +69,17 @@ void refuse_bad_orders(const OrderOptions& orders) {
   }
 }
 
+/// By wall face: the distance to the CAD that is asked.
+std::vector<double> wanted_distances(const LinearMesh& mesh, const Topology& topology,
+                                     const Wall& wall, const OrderOptions& options) {
+  const std::vector<double> shortest = shortest_edges(mesh, topology);
+  std::vector<double> distances;
+  for (Index f : wall.faces) {
+    distances.push_back(options.deviation * deviation_length(mesh, topology, f, shortest, options));
+  }
+  return distances;
+}
+
 }  // namespace
 
 CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
@@ -98,6 +110,11 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   watch.next("place");
   progress("place", 0.2);
   Placement placement(mesh, topology, result.association, geometry, wall, options.orders.max_order);
+
+  if (options.fit) {
+    fit_wall(mesh, topology, result.association, geometry, wall,
+             wanted_distances(mesh, topology, wall, options.orders), placement);
+  }
 
   watch.next("elevate");
   progress("elevate", 0.4);

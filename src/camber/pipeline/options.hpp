@@ -22,6 +22,7 @@ struct CurveOptions {
   LayerFieldOptions layer;
   double scale = 0.0;          // --unit: mesh length per CAD length (read as mm); 0: found
   TagOptions association;      // --patch
+  bool fit = false;            // slide wall nodes until the faces follow the CAD best
   bool split_pinched = false;  // cut cells that no curved wall can leave valid from their centre
   bool allow_invalid = false;  // write even if something is not certified
   bool strict = false;         // faces over the deviation count as failure (exit code 3)

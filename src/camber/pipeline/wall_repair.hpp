@@ -16,4 +16,13 @@ std::vector<Index> smooth_wall_faces(const LinearMesh& mesh, const Topology& top
                                      const Wall& wall, Placement& placement,
                                      const std::vector<Index>& slots);
 
+/// --fit: all wall nodes inside patches slide along the CAD until each face follows it as closely
+/// as its order can (smooth/surface_fit.hpp), order by order, patch by patch. Deviations are
+/// measured again, so that fewer faces may ask for more order.
+/// @param wanted_distance  by wall face: the deviation asked; faces that reach it at the order
+/// before are left alone
+void fit_wall(const LinearMesh& mesh, const Topology& topology, const Association& association,
+              const GeometryModel& model, const Wall& wall,
+              const std::vector<double>& wanted_distance, Placement& placement);
+
 }  // namespace camber

@@ -15,6 +15,7 @@ struct SurfaceFace {
   std::vector<Index> nodes;           // canonical lattice order, into SurfacePatch::nodes
   Points straight;                    // the straight face's lattice nodes
   std::array<Vec3, 4> corner_normal;  // unit; which way is up at the corners, all to one side
+  double good_enough = 0.0;           // distance to the surface not worth a slide (fit_surface)
 };
 
 struct SurfacePatch {
