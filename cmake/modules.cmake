@@ -2,8 +2,37 @@
 #   makes the static library camber_NAME (alias camber::NAME) from the calling folder.
 # camber_test(NAME SOURCES ... LIBRARIES ... [LABELS ...])
 #   makes the GoogleTest program NAME and registers each of its tests with ctest.
+# camber_lane_kernels(OUT BASE)
+#   sources BASE_baseline.cpp, BASE_avx2.cpp .. that this compiler can build, each with its flag; the
+#   choice is made at run time (base/processor.hpp). Targets that refer to them define
+#   ${camber_kernel_definitions}.
+include(CheckCXXCompilerFlag)
 include(GNUInstallDirs)
 include(GoogleTest)
+
+set(camber_instruction_sets "")
+set(camber_kernel_definitions "")
+foreach(set avx2 avx512)
+  string(REPLACE "avx512" "avx512f" flag -m${set})
+  check_cxx_compiler_flag(${flag} CAMBER_COMPILER_HAS_${set})
+  if(CAMBER_COMPILER_HAS_${set})
+    list(APPEND camber_instruction_sets ${set})
+    string(TOUPPER ${set} upper)
+    list(APPEND camber_kernel_definitions CAMBER_KERNELS_${upper})
+  endif()
+endforeach()
+
+function(camber_lane_kernels out base)
+  set(sources ${base}_baseline.cpp)
+  set_source_files_properties(${base}_baseline.cpp PROPERTIES COMPILE_OPTIONS -fno-math-errno)
+  foreach(set ${camber_instruction_sets})
+    string(REPLACE "avx512" "avx512f" flag -m${set})
+    list(APPEND sources ${base}_${set}.cpp)
+    set_source_files_properties(${base}_${set}.cpp PROPERTIES
+      COMPILE_OPTIONS "${flag};-fno-math-errno")
+  endforeach()
+  set(${out} ${sources} PARENT_SCOPE)
+endfunction()
 
 set(camber_module_targets "" CACHE INTERNAL "modules in build order")
 

@@ -55,7 +55,19 @@ class CurvedMesh {
   /// The same for the straight copy.
   void gather_straight(Index c, int q, Points& nodes) const;
 
+  /// All nodes above order 1, edges first, then faces, then cells, and where an entity's own begin.
+  [[nodiscard]] std::span<Vec3> high_order_nodes() { return nodes_; }
+  [[nodiscard]] std::span<const Vec3> high_order_nodes() const { return nodes_; }
   [[nodiscard]] std::size_t high_order_node_count() const { return nodes_.size(); }
+  [[nodiscard]] Index first_edge_node(Index e) const {
+    return static_cast<Index>(edge_offset_[at(e)]);
+  }
+  [[nodiscard]] Index first_face_node(Index f) const {
+    return static_cast<Index>(face_offset_[at(f)]);
+  }
+  [[nodiscard]] Index first_cell_node(Index c) const {
+    return static_cast<Index>(cell_offset_[at(c)]);
+  }
 
  private:
   [[nodiscard]] std::span<Vec3> own(const std::vector<std::int64_t>& offset, Index i) {

@@ -2,6 +2,7 @@
 // only, each compiled for one instruction set: everything here has internal linkage on purpose, and
 // no library header may be used.
 #pragma once
+#include <camber/base/lanes.hpp>
 #include <camber/validity/detail/kernel_plan.hpp>
 
 namespace camber::detail {
@@ -10,76 +11,6 @@ namespace {
 constexpr double k_unit_roundoff = 0x1p-53;
 // Below this a product of three differences may have lost digits to underflow.
 constexpr double k_underflow = 0x1p-1000;
-
-template <int W>
-struct Vector {
-  typedef double type __attribute__((vector_size(W * sizeof(double))));
-};
-template <>
-struct Vector<1> {
-  using type = double;
-};
-
-/// One double for each of W elements.
-template <int W>
-struct Pack {
-  typename Vector<W>::type v;
-};
-
-template <int W>
-inline Pack<W> broadcast(double s) {
-  Pack<W> p{};
-  p.v = p.v + s;
-  return p;
-}
-template <int W>
-inline Pack<W> operator+(const Pack<W>& a, const Pack<W>& b) {
-  return {a.v + b.v};
-}
-template <int W>
-inline Pack<W> operator-(const Pack<W>& a, const Pack<W>& b) {
-  return {a.v - b.v};
-}
-template <int W>
-inline Pack<W> operator*(const Pack<W>& a, const Pack<W>& b) {
-  return {a.v * b.v};
-}
-template <int W>
-inline Pack<W> operator/(const Pack<W>& a, const Pack<W>& b) {
-  return {a.v / b.v};
-}
-template <int W>
-inline Pack<W> operator*(double s, const Pack<W>& a) {
-  return {s * a.v};
-}
-template <int W>
-inline Pack<W> lower(const Pack<W>& a, const Pack<W>& b) {
-  return {a.v < b.v ? a.v : b.v};
-}
-template <int W>
-inline Pack<W> higher(const Pack<W>& a, const Pack<W>& b) {
-  return {a.v > b.v ? a.v : b.v};
-}
-template <int W>
-inline Pack<W> magnitude(const Pack<W>& a) {
-  return {a.v < 0.0 ? -a.v : a.v};
-}
-/// a where test >= 0, b elsewhere.
-template <int W>
-inline Pack<W> where_not_negative(const Pack<W>& test, const Pack<W>& a, const Pack<W>& b) {
-  return {test.v >= 0.0 ? a.v : b.v};
-}
-
-/// Hands out pieces of the scratch array.
-template <int W>
-struct Scratch {
-  double* next;
-  Pack<W>* take(int n) {
-    Pack<W>* piece = reinterpret_cast<Pack<W>*>(next);
-    next += static_cast<long>(n) * W;
-    return piece;
-  }
-};
 
 template <int W>
 void apply(const PassView& pass, const Pack<W>* __restrict in, Pack<W>* __restrict out) {

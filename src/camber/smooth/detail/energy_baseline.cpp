@@ -1,0 +1,16 @@
+#include <camber/smooth/detail/energy_kernel.hpp>
+
+namespace camber::detail {
+
+void energy_scalar(EnergyKind kind, const EnergyView& view, const double* x, const double* corners,
+                   const double* delta, double* slope, double* energy, double* least) {
+  energy_kernel<1>(kind, view, x, corners, delta, slope, energy, least);
+}
+
+void energy_two_lanes(EnergyKind kind, const EnergyView& view, const double* x,
+                      const double* corners, const double* delta, double* slope, double* energy,
+                      double* least) {
+  energy_kernel<2>(kind, view, x, corners, delta, slope, energy, least);
+}
+
+}  // namespace camber::detail

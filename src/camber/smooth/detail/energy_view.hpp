@@ -1,0 +1,41 @@
+#pragma once
+// What an energy kernel reads and writes: plain pointers into tables that an EnergyPlan owns.
+
+namespace camber::detail {
+
+/// Which function of T = A W^-1 is summed over the samples of an element.
+enum class EnergyKind {
+  shape,    // distortion(): |T|^2 |cof T|^2 / (9 h^2) (h + 1/h) / 2, h regularised by delta
+  quality,  // (1/C)^k, C of [karman2022] eq. (2) with a smooth cap; +inf where det T <= 0
+  metric    // |T|^2: its slope is the stiffness times the argument
+};
+
+/// Power k of the quality energy: the worst samples and cells count most, and it stays smooth.
+inline constexpr int k_quality_power = 4;
+
+struct EnergyView {
+  int nodes = 0, corners = 0, samples = 0;
+  const double* gradient = nullptr;           // [sample][3][node]: d/dxi of the basis
+  const double* straight_gradient = nullptr;  // [sample][3][corner], of the linear basis
+  const double* weight = nullptr;             // [sample]
+};
+
+/// For `lanes` elements at once: energy = sum_s weight_s f(T_s), least = min_s det T_s, and the
+/// derivative by the nodes.
+/// @param x         [component][node][lane], @param corners [component][corner][lane]
+/// @param delta     [lane]
+/// @param slope     [component][node][lane], overwritten
+/// @param energy, least  [lane]
+using EnergyKernel = void (*)(EnergyKind kind, const EnergyView& view, const double* x,
+                              const double* corners, const double* delta, double* slope,
+                              double* energy, double* least);
+
+struct EnergyKernelChoice {
+  EnergyKernel run = nullptr;
+  int lanes = 1;
+};
+/// The kernel for 1, 2, 4 or 8 lanes; run is null where this build or this machine has none. All
+/// give the same bits.
+[[nodiscard]] EnergyKernelChoice energy_kernel_of(int lanes);
+
+}  // namespace camber::detail

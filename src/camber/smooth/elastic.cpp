@@ -1,0 +1,41 @@
+#include <camber/smooth/detail/group_solver.hpp>
+#include <camber/smooth/elastic.hpp>
+
+#include <cmath>
+
+namespace camber {
+
+ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
+                            const std::vector<std::uint8_t>& is_free,
+                            const ElasticOptions& options) {
+  const CurvedMesh straight(curved.linear(), curved.topology(), curved.orders());
+  detail::CellEnergy energy(curved, cells, is_free);
+  ElasticResult result;
+  result.unknowns = energy.unknowns().size();
+  if (result.unknowns == 0) return result;
+  const detail::GroupSolver solver(energy);
+  result.largest_group = solver.largest_group();
+
+  VecX u = VecX::Zero(energy.size()), r = energy.load(curved, straight), z, Kp;
+  solver.solve(r, z);
+  VecX p = z;
+  double rz = r.dot(z);
+  const double first = rz;
+  while (result.products < options.max_products &&
+         rz > options.tolerance * options.tolerance * first) {
+    energy.apply_stiffness(p, Kp);
+    ++result.products;
+    const double alpha = rz / p.dot(Kp);
+    u += alpha * p;
+    r -= alpha * Kp;
+    solver.solve(r, z);
+    const double next = r.dot(z);
+    p = z + (next / rz) * p;
+    rz = next;
+  }
+  result.residual = first > 0.0 ? std::sqrt(rz / first) : 0.0;
+  energy.store(energy.positions(straight) + u, curved);
+  return result;
+}
+
+}  // namespace camber
