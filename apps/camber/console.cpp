@@ -46,21 +46,33 @@ ProgressLine::~ProgressLine() { clear(); }
 
 void ProgressLine::show(std::string_view stage, double fraction) {
   if (!is_shown_) return;
-  fmt::print(stderr, "\r[{:3.0f} %] {:<20}", 100.0 * fraction, stage);
+  rewrite(fmt::format("[{:3.0f} %] {}", 100.0 * fraction, stage));
+}
+
+void ProgressLine::show(std::string_view stage, const IterationState& state) {
+  if (!is_shown_) return;
+  rewrite(fmt::format("{} {}: {} nodes active, {} elements negative, worst cost {:.3g}", stage,
+                      state.iteration, state.active_nodes, state.negative_elements,
+                      state.worst_cost));
+}
+
+void ProgressLine::rewrite(const std::string& text) {
+  fmt::print(stderr, "\r{:<{}}", text, width_);
   std::fflush(stderr);
-  is_dirty_ = true;
+  width_ = text.size();
 }
 
 void ProgressLine::clear() {
-  if (!is_dirty_) return;
-  fmt::print(stderr, "\r{:28}\r", "");
+  if (width_ == 0) return;
+  fmt::print(stderr, "\r{:{}}\r", "", width_);
   std::fflush(stderr);
-  is_dirty_ = false;
+  width_ = 0;
 }
 
 Progress ProgressLine::progress() {
   return {[this](std::string_view stage, double fraction) { show(stage, fraction); },
-          [] { return interrupted() != 0; }};
+          [] { return interrupted() != 0; },
+          [this](std::string_view stage, const IterationState& state) { show(stage, state); }};
 }
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }

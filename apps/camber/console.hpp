@@ -28,13 +28,16 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(std::string_view stage, double fraction);
+  void show(std::string_view stage, const IterationState& state);
   void clear();
   /// To pass into long calls: shows stages, and cancels when a signal came. Must not outlive this.
   [[nodiscard]] Progress progress();
 
  private:
+  void rewrite(const std::string& text);
+
   bool is_shown_;
-  bool is_dirty_ = false;
+  std::size_t width_ = 0;  // of what is on the terminal now
 };
 
 /// True if stderr is a terminal.

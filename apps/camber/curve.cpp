@@ -22,7 +22,8 @@ struct CurveFlags {
   CommonFlags common;
   FormatFlags format;
   CurveOptions options;
-  std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer";
+  std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
+                    smoothing = "auto";
   std::vector<std::string> geometry, outputs, patches;
 };
 
@@ -68,6 +69,9 @@ CurveOptions options_of(const CurveFlags& flags) {
   set_deviation_length(flags.deviation_length, options.orders);
   set_patches(flags.patches, options.association);
   options.propagation = flags.propagation == "cell" ? Propagation::cell : Propagation::layer;
+  if (flags.smoothing != "auto") {
+    options.smoothing = flags.smoothing == "none" ? Smoothing::none : Smoothing::marching;
+  }
   if (options.orders.min_order > options.orders.max_order) {
     throw OptionError(fmt::format("the lowest order {} is above the highest, {}",
                                   options.orders.min_order, options.orders.max_order),
@@ -86,6 +90,8 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"deviation", fmt::format("{:g}", options.orders.deviation)},
       {"deviation-length", flags.deviation_length},
       {"propagate", flags.propagation},
+      {"smooth", flags.smoothing},
+      {"quality", fmt::format("{:g}", options.quality)},
       {"unit", flags.unit},
       {"fit", yes_no(options.fit)},
       {"split-pinched", yes_no(options.split_pinched)},
@@ -156,6 +162,22 @@ int run(const CurveFlags& flags) {
   return deliver(report, flags.common);
 }
 
+void add_smoothing_flags(CLI::App& verb, CurveFlags& flags) {
+  verb.add_option(
+          "--smooth", flags.smoothing,
+          "marching: the paper's smoother, surface then volume, with elevation; none: leave "
+          "the certified mesh as it is; auto: as none in this release")
+      ->check(CLI::IsMember({"auto", "marching", "none"}))
+      ->type_name("auto|marching|none")
+      ->capture_default_str();
+  verb.add_option("--quality", flags.options.quality,
+                  "cost C = min(1, Jp/Jc) / WCN that smoothing aims at; cells below it are counted "
+                  "in the report [-]")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("COST")
+      ->capture_default_str();
+}
+
 void add_order_flags(CLI::App& verb, CurveFlags& flags) {
   OrderOptions& orders = flags.options.orders;
   verb.add_option("--order", orders.max_order, "highest order (degree) of an element [-]")
@@ -207,6 +229,7 @@ Verb add_curve(CLI::App& app) {
       ->expected(1)
       ->take_all();
   add_order_flags(*verb, *flags);
+  add_smoothing_flags(*verb, *flags);
   add_unit_flag(*verb, flags->unit);
   verb->add_option("--patch", flags->patches,
                    "how a patch behaves, by name or surface number: free, fixed, plane or wall; "

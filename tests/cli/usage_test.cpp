@@ -38,7 +38,8 @@ TEST_F(CliTest, HelpOfCurveShowsDefaultsAndUnits) {
        {"--order ORDER:INT in [1 - 4]=4", "--min-order ORDER:INT in [1 - 4]=1",
         "--deviation SHARE:POSITIVE=0.01", "--deviation-length face|cell|LENGTH=face",
         "[mesh units]", "--unit UNIT:{auto,m,mm,in}=auto", "--patch NAME=RULE", "--allow-invalid",
-        "--strict", "--uniform", "--from", "--to"}) {
+        "--strict", "--uniform", "--smooth auto|marching|none",
+        "--quality COST:FLOAT in [0 - 1]=0.95", "--from", "--to"}) {
     EXPECT_THAT(outcome.out, HasSubstr(text));
   }
 }

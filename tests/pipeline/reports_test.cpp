@@ -71,6 +71,9 @@ Report filled() {
   report.rescue.scaled_back = 1;
   report.rescue.pinched = 2;
   report.rescue.places = {{5, Shape::tetrahedron, Vec3(0, 0, 1), 0.5, "scaled back"}};
+  report.quality.target = 0.9;
+  report.smooth = {{"surface", 1, 0, 40, 3, 0, -0.5, Vec3(1, 0, 0), 6, Shape::triangle, 2},
+                   {"volume", 2, 17, 4, 0, 9, 0.75, Vec3(0, 2, 0), 7, Shape::prism, 3}};
   report.stages_s = {{"read", 0.5}, {"verify", 0.25}};
   report.total_s = 0.75;
   report.peak_bytes = 1048576;
@@ -91,7 +94,7 @@ TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
   EXPECT_THAT(keys(json),
               ElementsAre("camber", "command", "status", "exit_code", "options", "input", "output",
                           "validity", "conformity", "surface", "quality", "wall_spacing", "rescue",
-                          "time", "memory", "threads", "ranks", "warnings"));
+                          "smooth", "time", "memory", "threads", "ranks", "warnings"));
   EXPECT_THAT(keys(json["input"]), ElementsAre("mesh", "geometry", "cells", "nodes"));
   EXPECT_THAT(keys(json["input"]["cells"]), ElementsAre("tet", "pyramid", "prism", "hex"));
   EXPECT_THAT(keys(json["output"]),
@@ -131,6 +134,14 @@ TEST(JsonReport, HoldsEveryValue) {
   EXPECT_EQ(json["quality"]["scaled_jacobian"]["histogram"][3], 23);
   EXPECT_EQ(json["wall_spacing"]["first_cell_changed_over_1_percent"], 1);
   EXPECT_EQ(json["rescue"]["places"][0]["distance"], 0.5);
+  EXPECT_EQ(json["quality"]["cost"]["target"], 0.9);
+  EXPECT_EQ(json["smooth"].size(), 2u);
+  EXPECT_EQ(json["smooth"][0]["negative_elements"], 3);
+  EXPECT_EQ(json["smooth"][1],
+            Json::parse(R"({"stage": "volume", "pass": 2, "iteration": 17, "active_nodes": 4,
+                            "negative_elements": 0, "elevated_elements": 9, "worst_cost": 0.75,
+                            "place": [0.0, 2.0, 0.0], "element": 7, "shape": "prism",
+                            "order": 3})"));
   EXPECT_EQ(json["time"]["stages_s"]["verify"], 0.25);
   EXPECT_EQ(json["memory"]["peak_bytes"], 1048576);
   EXPECT_EQ(json["warnings"][0], "something to know");
@@ -156,6 +167,11 @@ TEST(TextReport, ShowsThePapersTableWithTheLinearMeshBeside) {
   EXPECT_THAT(text, HasSubstr("2 of 6 faces are over the deviation asked"));
   EXPECT_THAT(text, HasSubstr("no CAD:  far, inlet\n"));
   EXPECT_THAT(text, HasSubstr("21 of 23 certified, 1 invalid, 1 undecided"));
+  EXPECT_THAT(text, HasSubstr("5 cells below 0.9\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("volume      2         17             4         0       9     0.75  (0, 2, 0)"));
+  EXPECT_THAT(text, HasSubstr("prism 7 Q3"));
   EXPECT_THAT(text, HasSubstr("mesh units"));
   EXPECT_THAT(text, HasSubstr("1 of 200 wall nodes (0.5 %)"));
   EXPECT_THAT(text, HasSubstr("something to know"));
@@ -185,7 +201,8 @@ TEST(TextReport, LeavesOutWhatWasNotMeasured) {
 
   const std::string text = text_report(report);
 
-  for (const char* section : {"Surface", "Validity", "Wall", "Rescue", "Quality", "Conformity"}) {
+  for (const char* section :
+       {"Surface", "Validity", "Wall", "Rescue", "Quality", "Conformity", "Smoothing"}) {
     EXPECT_THAT(text, Not(HasSubstr(section)));
   }
   EXPECT_THAT(text, HasSubstr("result     ok"));

@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t k_worst_listed = 10;
 /// Cost under which a cell counts as below the quality target (the paper's convergence threshold).
-constexpr double k_cost_target = 0.95;
 constexpr int k_highest_certified = 8;  // order that certify() takes
 
 void put(Histogram& histogram, double value) {
@@ -106,7 +105,7 @@ void measure_quality(const ElementList& cells, Report& report) {
   for (double c : cost) {
     put(quality.cost, c);
     quality.minimum = std::min(quality.minimum, c);
-    quality.below_target += c < k_cost_target;
+    quality.below_target += c < quality.target;
   }
   quality.average = ordered_sum(n, [&](std::size_t i) { return cost[i]; }) / static_cast<double>(n);
 }

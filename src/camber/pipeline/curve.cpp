@@ -5,6 +5,7 @@
 #include <camber/elevate/rescue.hpp>
 #include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/ladder.hpp>
+#include <camber/pipeline/smooth_stage.hpp>
 #include <camber/pipeline/summary.hpp>
 #include <camber/pipeline/unpinch.hpp>
 #include <camber/pipeline/wall_repair.hpp>
@@ -80,11 +81,18 @@ std::vector<double> wanted_distances(const LinearMesh& mesh, const Topology& top
   return distances;
 }
 
+void refuse_bad_quality(double quality) {
+  if (quality >= 0.0 && quality <= 1.0) return;
+  throw OptionError(fmt::format("a cost of {:g} does not exist", quality), "--quality",
+                    "give a value from 0 to 1; 0.95 is the paper's");
+}
+
 }  // namespace
 
 CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
                   const Progress& progress) {
   refuse_bad_orders(options.orders);
+  refuse_bad_quality(options.quality);
   CurveResult result;
   Stopwatch watch;
   watch.next("topology");
@@ -143,6 +151,11 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   progress("rescue", 0.8);
   const LadderResult ladder = climb(*result.curved, result.association, geometry, placement, field,
                                     wall, columns, pinched, uncertified);
+
+  watch.next("smooth");
+  progress("smooth", 0.85);
+  result.report.smooth =
+      smooth_stage(result.curved, result.association, geometry, options, progress);
 
   watch.next("measure");
   progress("measure", 0.9);

@@ -114,6 +114,24 @@ Json rescue(const Report& report) {
           {"places", places}};
 }
 
+Json smooth(const Report& report) {
+  Json rows = Json::array();
+  for (const SmoothRow& row : report.smooth) {
+    rows.push_back({{"stage", row.stage},
+                    {"pass", row.pass},
+                    {"iteration", row.iteration},
+                    {"active_nodes", row.active_nodes},
+                    {"negative_elements", row.negative_elements},
+                    {"elevated_elements", row.elevated_elements},
+                    {"worst_cost", row.worst_cost},
+                    {"place", to_json(row.place)},
+                    {"element", row.element},
+                    {"shape", name(row.shape)},
+                    {"order", row.order}});
+  }
+  return rows;
+}
+
 Json pairs(const std::vector<std::pair<std::string, std::string>>& list) {
   Json json = Json::object();
   for (const auto& [key, value] : list) json[key] = value;
@@ -149,6 +167,7 @@ std::string json_report(const Report& report) {
   json["quality"] = {{"cost",
                       {{"minimum", report.quality.minimum},
                        {"average", report.quality.average},
+                       {"target", report.quality.target},
                        {"below_target", report.quality.below_target},
                        {"histogram", report.quality.cost}}},
                      {"scaled_jacobian", {{"histogram", report.quality.scaled_jacobian}}}};
@@ -158,6 +177,7 @@ std::string json_report(const Report& report) {
       {"first_cell_changed_over_1_percent", report.wall_spacing.first_cell_changed_over_1_percent},
       {"max_change", report.wall_spacing.max_change}};
   json["rescue"] = rescue(report);
+  json["smooth"] = smooth(report);
   json["time"] = time(report);
   json["memory"] = {{"peak_bytes", report.peak_bytes}};
   json["threads"] = report.threads;

@@ -14,12 +14,21 @@ enum class Propagation {
   cell    // the paper's transfer (2.2.4): linearly decaying inside the elevated cells only
 };
 
+/// What is done for quality once every cell is certified.
+enum class Smoothing {
+  automatic,  // default
+  marching,   // the paper's perturbations along the sensitivities of the cost (2.2.5)
+  none
+};
+
 /// Everything a run of curve() depends on besides its files.
 struct CurveOptions {
   OrderOptions orders;   // --order, --min-order, --deviation, --deviation-length
   bool uniform = false;  // write every cell at orders.max_order (exact elevation)
   Propagation propagation = Propagation::layer;
   LayerFieldOptions layer;
+  Smoothing smoothing = Smoothing::automatic;
+  double quality = 0.95;       // --quality: cost C that every cell should have (paper's threshold)
   double scale = 0.0;          // --unit: mesh length per CAD length (read as mm); 0: found
   TagOptions association;      // --patch
   bool fit = false;            // slide wall nodes until the faces follow the CAD best

@@ -1,8 +1,6 @@
 #pragma once
 // What a run found and did: the data behind the text report and the --json file (see docs/report).
-#include <camber/base/ids.hpp>
-#include <camber/base/vec.hpp>
-#include <camber/basis/shape.hpp>
+#include <camber/smooth/smooth_row.hpp>
 
 #include <array>
 #include <cstdint>
@@ -79,9 +77,11 @@ struct Report {
   } surface;
   struct {
     double minimum = 1.0, average = 1.0;  // cost C of eq. (2)
+    double target = 0.95;
     std::size_t below_target = 0;
     Histogram cost{}, scaled_jacobian{};
   } quality;
+  std::vector<SmoothRow> smooth;  // how smoothing went, if it was asked for
   struct {
     std::size_t columns = 0, wall_nodes = 0, first_cell_changed_over_1_percent = 0;
     double max_change = 0.0;

@@ -18,8 +18,6 @@ namespace {
 
 constexpr double k_spacing_limit = 0.01;
 constexpr std::size_t k_worst_listed = 10;
-/// Cost under which a cell counts as below the quality target (the paper's convergence threshold).
-constexpr double k_cost_target = 0.95;
 
 void put(Histogram& histogram, double value) {
   const int bin = std::clamp(static_cast<int>(value * k_histogram_bins), 0, k_histogram_bins - 1);
@@ -77,7 +75,7 @@ void certify_cells(CurveResult& result, Report& report) {
     put(report.quality.scaled_jacobian, b.scaled_jacobian);
     put(report.quality.cost, result.cell_cost[i]);
     report.quality.minimum = std::min(report.quality.minimum, result.cell_cost[i]);
-    report.quality.below_target += result.cell_cost[i] < k_cost_target;
+    report.quality.below_target += result.cell_cost[i] < report.quality.target;
     sum += result.cell_cost[i];
   }
   report.quality.average = n ? sum / static_cast<double>(n) : 1.0;
@@ -390,6 +388,7 @@ void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& w
   Report& report = result.report;
   report.command = "curve";
   report.threads = thread_count();
+  report.quality.target = options.quality;
   count_cells(result, options, report);
   certify_cells(result, report);
   measure_gaps(result, report);

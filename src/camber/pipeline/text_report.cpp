@@ -12,6 +12,7 @@ namespace camber {
 namespace {
 
 constexpr std::size_t k_places_listed = 10;  // the farthest; the JSON report has all
+constexpr std::size_t k_rows_listed = 12;    // of smoothing, evenly chosen; likewise
 constexpr std::size_t k_line = 96;
 
 std::string number(double value) { return fmt::format("{:.3g}", value); }
@@ -207,8 +208,8 @@ void add_quality(const Report& report, std::string& out) {
   if (total(q.cost) > 0) {
     add_row("cost C", q.cost);
     out += fmt::format(
-        "  cost C = min(1, Jp/Jc) / WCN: lowest {:.3g}, average {:.4g}, {} cells below 0.95\n",
-        q.minimum, q.average, q.below_target);
+        "  cost C = min(1, Jp/Jc) / WCN: lowest {:.3g}, average {:.4g}, {} cells below {:g}\n",
+        q.minimum, q.average, q.below_target, q.target);
   }
   out += table.text();
 }
@@ -244,6 +245,23 @@ void add_rescue(const Report& report, std::string& out) {
   }
 }
 
+void add_smooth(const Report& report, std::string& out) {
+  const std::size_t all = report.smooth.size(), listed = std::min(all, k_rows_listed);
+  if (all == 0) return;
+  out += "\nSmoothing (cost C of the elements of the stage)\n";
+  TextTable table;
+  table.add({"stage", "pass", "iteration", "active nodes", "negative", "raised", "worst C", "at",
+             "element"});
+  for (std::size_t i = 0; i < listed; ++i) {
+    const SmoothRow& row = report.smooth[listed == 1 ? 0 : i * (all - 1) / (listed - 1)];
+    table.add({row.stage, fmt::format("{}", row.pass), fmt::format("{}", row.iteration),
+               number(row.active_nodes), number(row.negative_elements),
+               number(row.elevated_elements), number(row.worst_cost), place(row.place),
+               fmt::format("{} {} Q{}", name(row.shape), row.element, row.order)});
+  }
+  out += table.text();
+}
+
 void add_foot(const Report& report, std::string& out) {
   out += "\n";
   std::vector<std::string> stages;
@@ -272,6 +290,7 @@ std::string text_report(const Report& report) {
   add_wall(report, out);
   add_quality(report, out);
   add_rescue(report, out);
+  add_smooth(report, out);
   add_foot(report, out);
   return out;
 }
