@@ -68,7 +68,9 @@ CurveOptions options_of(const CurveFlags& flags) {
   options.scale = scale_of_unit(flags.unit);
   set_deviation_length(flags.deviation_length, options.orders);
   set_patches(flags.patches, options.association);
-  options.propagation = flags.propagation == "cell" ? Propagation::cell : Propagation::layer;
+  options.propagation = flags.propagation == "cell"      ? Propagation::cell
+                        : flags.propagation == "elastic" ? Propagation::elastic
+                                                         : Propagation::layer;
   if (flags.smoothing != "auto") {
     options.smoothing = flags.smoothing == "none" ? Smoothing::none : Smoothing::marching;
   }
@@ -203,10 +205,10 @@ void add_order_flags(CLI::App& verb, CurveFlags& flags) {
       ->capture_default_str();
   verb.add_option(
           "--propagate", flags.propagation,
-          "layer: the wall's displacement is carried through the whole boundary layer; cell: it "
-          "dies out in the first cell, as in the paper")
-      ->check(CLI::IsMember({"layer", "cell"}))
-      ->type_name("layer|cell")
+          "layer: the wall's displacement is carried through the whole boundary layer; elastic: "
+          "spread by a linear solve; cell: it dies out in the first cell, as in the paper")
+      ->check(CLI::IsMember({"layer", "elastic", "cell"}))
+      ->type_name("layer|elastic|cell")
       ->capture_default_str();
 }
 

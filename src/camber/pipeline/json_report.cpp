@@ -109,6 +109,7 @@ Json rescue(const Report& report) {
           {"orders_lowered", report.rescue.orders_lowered},
           {"scaled_back", report.rescue.scaled_back},
           {"pinched", report.rescue.pinched},
+          {"elastic_products", report.rescue.elastic_products},
           {"edges_removed", report.rescue.edges_removed},
           {"pinched_split", report.rescue.pinched_split},
           {"places", places}};

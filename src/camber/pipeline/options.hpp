@@ -10,8 +10,9 @@ namespace camber {
 
 /// How the wall's displacement is carried into the volume.
 enum class Propagation {
-  layer,  // through the whole boundary layer (default)
-  cell    // the paper's transfer (2.2.4): linearly decaying inside the elevated cells only
+  layer,    // through the whole boundary layer (default)
+  elastic,  // by a linear solve over all curved cells (smooth/elastic.hpp)
+  cell      // the paper's transfer (2.2.4): linearly decaying inside the elevated cells only
 };
 
 /// What is done for quality once every cell is certified.

@@ -408,6 +408,21 @@ FixedEntities boundary_entities(const Topology& topology) {
   return fixed;
 }
 
+std::vector<std::uint8_t> free_nodes(const CurvedMesh& curved) {
+  const FixedEntities fixed = boundary_entities(curved.topology());
+  std::vector<std::uint8_t> is_free(curved.high_order_node_count(), 1);
+  const auto fix = [&](Index first, std::size_t count) {
+    std::fill_n(is_free.begin() + first, count, std::uint8_t{0});
+  };
+  for (Index e = 0; at(e) < fixed.edge.size(); ++e) {
+    if (fixed.edge[at(e)]) fix(curved.first_edge_node(e), curved.edge_nodes(e).size());
+  }
+  for (Index f = 0; at(f) < fixed.face.size(); ++f) {
+    if (fixed.face[at(f)]) fix(curved.first_face_node(f), curved.face_nodes(f).size());
+  }
+  return is_free;
+}
+
 UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified,
                         const FixedEntities& fixed, const UntangleOptions& options) {
   UntangleResult result;

@@ -13,6 +13,8 @@ struct FixedEntities {
 };
 /// Boundary faces, patch faces and their edges are fixed.
 [[nodiscard]] FixedEntities boundary_entities(const Topology& topology);
+/// By high-order node: not on an entity of boundary_entities().
+[[nodiscard]] std::vector<std::uint8_t> free_nodes(const CurvedMesh& curved);
 
 struct UntangleOptions {
   int rings = 3;        // layers of neighbours whose nodes may move too
