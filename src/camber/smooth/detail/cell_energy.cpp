@@ -169,8 +169,7 @@ void CellEnergy::evaluate_batch(const Batch& batch, EnergyKind kind, double delt
         }
       }
     }
-    kernel(kind, plan.view(), x, X, deltas, slope,
-           energy, least);
+    kernel(kind, plan.view(), x, X, deltas, slope, energy, least);
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::size_t i = batch.cells[start + l];
       cell_energy_[i] = energy[l];

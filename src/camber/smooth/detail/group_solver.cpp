@@ -50,6 +50,20 @@ void GroupSolver::solve(const VecX& r, VecX& z) const {
   });
 }
 
+double GroupSolver::squared_norm(const VecX& v) const {
+  double sum = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> own;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::vector<Index>& group = groups_[g];
+    own.resize(static_cast<Eigen::Index>(group.size()), 3);
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      own.row(static_cast<Eigen::Index>(k)) = v.segment<3>(3 * group[k]).transpose();
+    }
+    sum += (factors_[g].triangularView<Eigen::Lower>().transpose() * own).squaredNorm();
+  }
+  return sum;
+}
+
 std::size_t GroupSolver::largest_group() const {
   std::size_t largest = 0;
   for (const std::vector<Index>& group : groups_) largest = std::max(largest, group.size());
