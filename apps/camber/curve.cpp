@@ -4,6 +4,7 @@
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <map>
@@ -24,6 +25,7 @@ struct CurveFlags {
   CurveOptions options;
   std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
                     smoothing = "auto";
+  std::string link = "auto";
   std::vector<std::string> geometry, outputs, patches;
 };
 
@@ -46,6 +48,27 @@ void set_deviation_length(const std::string& text, OrderOptions& orders) {
   orders.deviation_length = DeviationLength::given;
 }
 
+/// The CAD faces of NAME=face_3,face_4 (numbers, or cad:NAME for a name of the CAD); empty for a
+/// rule.
+std::vector<std::string> faces_of(const std::string& text, std::size_t equals) {
+  std::vector<std::string> faces;
+  if (equals == std::string::npos || equals == 0) return faces;
+  std::size_t begin = equals + 1;
+  while (begin <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string name = text.substr(begin, comma - begin);
+    if (name.starts_with("face_")) {
+      faces.push_back(name);
+    } else if (name.starts_with("cad:")) {
+      faces.push_back(name.substr(4));
+    } else {
+      return {};
+    }
+    begin = comma + 1;
+  }
+  return faces;
+}
+
 void set_patches(const std::vector<std::string>& texts, TagOptions& association) {
   static const std::map<std::string, PatchRule> rules{{"free", PatchRule::free},
                                                       {"fixed", PatchRule::fixed},
@@ -53,11 +76,15 @@ void set_patches(const std::vector<std::string>& texts, TagOptions& association)
                                                       {"wall", PatchRule::wall}};
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
+    if (const auto faces = faces_of(text, equals); !faces.empty()) {
+      association.faces[text.substr(0, equals)] = faces;
+      continue;
+    }
     const auto rule =
         equals == std::string::npos ? rules.end() : rules.find(text.substr(equals + 1));
     if (rule == rules.end() || equals == 0) {
       throw OptionError("'" + text + "' is no rule for a patch", "--patch",
-                        "give NAME=free, NAME=fixed, NAME=plane or NAME=wall");
+                        "give NAME=free, NAME=fixed, NAME=plane, NAME=wall or NAME=face_3,face_4");
     }
     association.patches[text.substr(0, equals)] = rule->second;
   }
@@ -73,6 +100,9 @@ CurveOptions options_of(const CurveFlags& flags) {
                                                          : Propagation::layer;
   if (flags.smoothing != "auto") {
     options.smoothing = flags.smoothing == "none" ? Smoothing::none : Smoothing::marching;
+  }
+  if (flags.link != "auto") {
+    options.link_by = flags.link == "tags" ? LinkBy::tags : LinkBy::shape;
   }
   if (options.orders.min_order > options.orders.max_order) {
     throw OptionError(fmt::format("the lowest order {} is above the highest, {}",
@@ -95,6 +125,7 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"smooth", flags.smoothing},
       {"quality", fmt::format("{:g}", options.quality)},
       {"unit", flags.unit},
+      {"link", flags.link},
       {"fit", yes_no(options.fit)},
       {"split-pinched", yes_no(options.split_pinched)},
       {"allow-invalid", yes_no(options.allow_invalid)},
@@ -216,8 +247,7 @@ void add_order_flags(CLI::App& verb, CurveFlags& flags) {
 
 Verb add_curve(CLI::App& app) {
   const auto flags = std::make_shared<CurveFlags>();
-  CLI::App* verb =
-      app.add_subcommand("curve", "curve a linear mesh onto the CAD that its tags refer to");
+  CLI::App* verb = app.add_subcommand("curve", "curve a linear mesh onto its CAD");
   verb->add_option("mesh", flags->mesh, "linear mesh (.msh)")->required()->type_name("MESH");
   verb->add_option("-g,--geometry", flags->geometry, "CAD file (.step .stp .iges .igs .brep)")
       ->required()
@@ -233,8 +263,15 @@ Verb add_curve(CLI::App& app) {
   add_order_flags(*verb, *flags);
   add_smoothing_flags(*verb, *flags);
   add_unit_flag(*verb, flags->unit);
+  verb->add_option("--link", flags->link,
+                   "what links mesh and CAD. tags: the surface tags of the mesh; shape: place and "
+                   "shape alone; auto: tags if they fit the CAD, else shape")
+      ->check(CLI::IsMember({"auto", "tags", "shape"}))
+      ->type_name("auto|tags|shape")
+      ->capture_default_str();
   verb->add_option("--patch", flags->patches,
                    "how a patch behaves, by name or surface number: free, fixed, plane or wall; "
+                   "or the CAD faces it lies on: face_3,face_4 or cad:NAME; "
                    "may be given several times; default: by its tag and shape")
       ->type_name("NAME=RULE")
       ->expected(1)

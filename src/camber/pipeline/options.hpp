@@ -22,6 +22,13 @@ enum class Smoothing {
   none
 };
 
+/// What links the mesh to the CAD.
+enum class LinkBy {
+  automatic,  // tags if they fit the CAD, else shape (default)
+  tags,
+  shape  // place and shape alone, tags or not
+};
+
 /// Everything a run of curve() depends on besides its files.
 struct CurveOptions {
   OrderOptions orders;   // --order, --min-order, --deviation, --deviation-length
@@ -29,9 +36,10 @@ struct CurveOptions {
   Propagation propagation = Propagation::layer;
   LayerFieldOptions layer;
   Smoothing smoothing = Smoothing::automatic;
-  double quality = 0.95;       // --quality: cost C that every cell should have (paper's threshold)
-  double scale = 0.0;          // --unit: mesh length per CAD length (read as mm); 0: found
-  TagOptions association;      // --patch
+  double quality = 0.95;   // --quality: cost C that every cell should have (paper's threshold)
+  double scale = 0.0;      // --unit: mesh length per CAD length (read as mm); 0: found
+  TagOptions association;  // --patch
+  LinkBy link_by = LinkBy::automatic;
   bool fit = false;            // slide wall nodes until the faces follow the CAD best
   bool split_pinched = false;  // cut cells that no curved wall can leave valid from their centre
   bool allow_invalid = false;  // write even if something is not certified
