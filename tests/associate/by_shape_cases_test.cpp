@@ -93,7 +93,14 @@ TEST_P(ByShape, FindsTheCadFacesAndCurvesOfTheTags) {
   for (Index e = 0; at(e) < topology_.edge_count(); ++e) {
     const GeomEntity expected = expected_.edge2curve[at(e)];
     const GeomEntity actual = found.association.edge2curve[at(e)];
-    if (expected.dim != 1 && actual.dim != 1) continue;
+    if (expected.dim != 1) {
+      // Two bundled meshes follow seams without line elements there.
+      if (actual.dim == 1) {
+        const std::vector<int> around = geometry_->faces_of_curve(actual.tag);
+        EXPECT_TRUE(around.size() == 1 && geometry_->is_seam(actual.tag, around.front())) << e;
+      }
+      continue;
+    }
     ++edges;
     same_edges += expected == actual;
     if (!is_sharp(e, sides)) continue;
@@ -119,14 +126,13 @@ constexpr Case k_cases[] = {
     {"SphereHyb4", "layers/sphere_hyb_4.msh", "layers/sphere_hyb_4.brep", true},
     {"SphereHex", "layers/sphere_hex.msh", "layers/sphere_hex.brep", true},
     {"Ellipsoid4", "layers/ellip_prism_4.msh", "layers/ellip_prism_4.brep", true},
-    {"WingHexbl4", "layers/wing_hexbl_4.msh", "layers/wing_hexbl_4.brep", true},
-    {"WingPrbl4", "layers/wing_prbl_4.msh", "layers/wing_prbl_4.brep", true},
+    {"WingHexbl2", "layers/wing_hexbl_2.msh", "layers/wing_hexbl_2.brep", true},
+    {"SphereTet", "layers/sphere_tet_c.msh", "layers/sphere_tet_c.brep", true},
+    {"SphereHexbl4", "layers/sphere_hexbl_4.msh", "layers/sphere_hexbl_4.brep", true},
     {"Fillet", "layers/fillet_tet.msh", "layers/fillet_tet.brep", true},
     {"Torus", "layers/torus_tet.msh", "layers/torus_tet.brep", true},
     {"Pipe", "layers/pipe_tet.msh", "layers/pipe_tet.brep", true},
     {"OneraM6Bl", "foreign/onera-m6-bl/linear.msh", "foreign/onera-m6-bl/body.step", true},
-    {"Hemisphere", "foreign/hemisphere-cylinder/gen/hc_hyb_alltypes.msh",
-     "foreign/hemisphere-cylinder/gen/domain.step", true},
     {"HighLift", "foreign/crmhl-2d-section/gen/crm2d_hyb_coarse.msh",
      "foreign/crmhl-2d-section/gen/domain.brep", true},
 };

@@ -147,7 +147,7 @@ class Matcher {
             for (const NearFace& near : match_.near[at(corner(s, 0))]) {
               if (!may_lie_on(s, near.face)) continue;
               const double distance = node_distance(s, near.face);
-              if (!std::isfinite(distance)) continue;
+              if (distance > farthest(s, near.face)) continue;
               common.push_back({near.face, distance});
               nearest = std::min(nearest, distance);
             }
@@ -165,6 +165,13 @@ class Matcher {
     const double shortest = boundary_.faces[slot].shortest;
     return std::max({k_as_near * nearest, k_close_share * shortest,
                      std::min(2.0 * gap_[static_cast<std::size_t>(face)], k_gap_share * shortest)});
+  }
+
+  /// Nodes farther away than this do not lie on the CAD face whatever the alternatives: the sides
+  /// of thin layers have nodes near the wall too.
+  [[nodiscard]] double farthest(std::size_t slot, int face) const {
+    return std::max(k_gap_share * boundary_.faces[slot].shortest,
+                    2.0 * gap_[static_cast<std::size_t>(face)]);
   }
 
   [[nodiscard]] bool faces_its_way(const Boundary::Face& face, const Candidate& c) const {
@@ -269,11 +276,12 @@ class Matcher {
     for (int i = 0; i < face.corners; ++i) {
       const Index v = corner(s, i);
       const std::vector<NearFace>& near = match_.near[at(v)];
-      if (near.empty()) return;
-      bool is_held = false;
+      bool is_close = false, is_held = false;
       for (const NearFace& n : near) {
         if (!may_lie_on(s, n.face)) continue;
-        if (n.distance > limit(s, n.face, near.front().distance)) continue;
+        if (n.distance > std::min(limit(s, n.face, near.front().distance), farthest(s, n.face)))
+          continue;
+        is_close = true;
         const Vec3& x = mesh_.vertices[at(boundary_.vertices[at(v)])];
         const Projection foot = projector.closest({2, n.face}, x);
         const double cosine = projector.evaluate_face(n.face, foot.uv).normal.dot(face.normal);
@@ -282,6 +290,7 @@ class Matcher {
         is_held = true;
         group.push_back({2, n.face});
       }
+      if (!is_close) return;
       is_near = is_near && is_held;
     }
     std::sort(group.begin(), group.end());

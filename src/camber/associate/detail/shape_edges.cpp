@@ -15,8 +15,10 @@ constexpr double k_close_share = 1e-4;
 /// Ends of an edge between two CAD faces: these faces say already that it is on a common curve.
 constexpr double k_between_share = 1e-1;
 /// |cosine| between the edge and the curve's tangent at its ends: a chord across a ring's opening
-/// or between two curves has less; a sixth of a circle 0.87.
+/// or between two curves has less; a sixth of a circle 0.87. Between two CAD faces a quarter of a
+/// circle (0.71) and sharper bends are believed too.
 constexpr double k_along_cosine = 0.5;
+constexpr double k_between_cosine = 0.2;
 
 class EdgeLinker {
  public:
@@ -69,6 +71,7 @@ class EdgeLinker {
     if (a->empty()) std::swap(a, b);
     if (a->empty()) return 0;
     const bool is_within = *a == *b, is_border = b->empty();
+    const bool is_between = !is_within && !is_border;
     const Vec3& from = mesh_.vertices[at(topology_.edge2vertex[at(e)][0])];
     const Vec3& to = mesh_.vertices[at(topology_.edge2vertex[at(e)][1])];
     const double length = (to - from).norm();
@@ -79,11 +82,12 @@ class EdgeLinker {
         if (model_.is_degenerate(curve)) continue;
         const std::vector<int> faces = model_.faces_of_curve(curve);
         if (is_within && !is_inner(curve, *a)) continue;
-        if (!is_within && !is_border && !is_on(*b, faces)) continue;
+        if (is_between && !is_on(*b, faces)) continue;
         const double gap = 2.0 * model_.tolerance({1, curve});
-        const double share = is_within || is_border ? k_close_share : k_between_share;
+        const double share = is_between ? k_between_share : k_close_share;
         const double allowed = std::max(share * length, std::min(gap, k_between_share * length));
-        const double off = distance(projector, curve, from, to, allowed);
+        const double off = distance(projector, curve, from, to, allowed,
+                                    is_between ? k_between_cosine : k_along_cosine);
         if (off < nearest) {
           nearest = off;
           best = curve;
@@ -95,7 +99,7 @@ class EdgeLinker {
 
   /// Larger distance of the two ends from the curve; infinite beyond `allowed` or across it.
   [[nodiscard]] double distance(Projector& projector, int curve, const Vec3& from, const Vec3& to,
-                                double allowed) const {
+                                double allowed, double least_cosine) const {
     constexpr double far = std::numeric_limits<double>::infinity();
     const Vec3 along = (to - from).normalized();
     double largest = 0.0;
@@ -104,7 +108,7 @@ class EdgeLinker {
       if (foot.status == ProjectionStatus::failed || foot.distance > allowed) return far;
       const Vec3 tangent = projector.evaluate_curve(curve, foot.uv.x()).tangent;
       const double size = tangent.norm();
-      if (size > 0.0 && std::abs(tangent.dot(along)) < k_along_cosine * size) return far;
+      if (size > 0.0 && std::abs(tangent.dot(along)) < least_cosine * size) return far;
       largest = std::max(largest, foot.distance);
     }
     return largest;
