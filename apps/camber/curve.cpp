@@ -48,61 +48,22 @@ void set_deviation_length(const std::string& text, OrderOptions& orders) {
   orders.deviation_length = DeviationLength::given;
 }
 
-/// The CAD faces of NAME=face_3,face_4 (numbers, or cad:NAME for a name of the CAD); empty for a
-/// rule.
-std::vector<std::string> faces_of(const std::string& text, std::size_t equals) {
-  std::vector<std::string> faces;
-  if (equals == std::string::npos || equals == 0) return faces;
-  std::size_t begin = equals + 1;
-  while (begin <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    const std::string name = text.substr(begin, comma - begin);
-    if (name.starts_with("face_")) {
-      faces.push_back(name);
-    } else if (name.starts_with("cad:")) {
-      faces.push_back(name.substr(4));
-    } else {
-      return {};
-    }
-    begin = comma + 1;
-  }
-  return faces;
-}
-
-void set_patches(const std::vector<std::string>& texts, TagOptions& association) {
-  static const std::map<std::string, PatchRule> rules{{"free", PatchRule::free},
-                                                      {"fixed", PatchRule::fixed},
-                                                      {"plane", PatchRule::plane},
-                                                      {"wall", PatchRule::wall}};
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.rfind('=');
-    if (const auto faces = faces_of(text, equals); !faces.empty()) {
-      association.faces[text.substr(0, equals)] = faces;
-      continue;
-    }
-    const auto rule =
-        equals == std::string::npos ? rules.end() : rules.find(text.substr(equals + 1));
-    if (rule == rules.end() || equals == 0) {
-      throw OptionError("'" + text + "' is no rule for a patch", "--patch",
-                        "give NAME=free, NAME=fixed, NAME=plane, NAME=wall or NAME=face_3,face_4");
-    }
-    association.patches[text.substr(0, equals)] = rule->second;
-  }
-}
-
 CurveOptions options_of(const CurveFlags& flags) {
   CurveOptions options = flags.options;
   options.scale = scale_of_unit(flags.unit);
   set_deviation_length(flags.deviation_length, options.orders);
-  set_patches(flags.patches, options.association);
+  options.association = association_of(flags.patches);
   options.propagation = flags.propagation == "cell"      ? Propagation::cell
                         : flags.propagation == "elastic" ? Propagation::elastic
                                                          : Propagation::layer;
   if (flags.smoothing != "auto") {
     options.smoothing = flags.smoothing == "none" ? Smoothing::none : Smoothing::marching;
   }
-  if (flags.link != "auto") {
+  if (flags.link == "tags" || flags.link == "shape") {
     options.link_by = flags.link == "tags" ? LinkBy::tags : LinkBy::shape;
+  } else if (flags.link != "auto") {
+    options.link_by = LinkBy::file;
+    options.mesh_link = io::read_meshlink(flags.link);
   }
   if (options.orders.min_order > options.orders.max_order) {
     throw OptionError(fmt::format("the lowest order {} is above the highest, {}",
@@ -263,19 +224,13 @@ Verb add_curve(CLI::App& app) {
   add_order_flags(*verb, *flags);
   add_smoothing_flags(*verb, *flags);
   add_unit_flag(*verb, flags->unit);
-  verb->add_option("--link", flags->link,
-                   "what links mesh and CAD. tags: the surface tags of the mesh; shape: place and "
-                   "shape alone; auto: tags if they fit the CAD, else shape")
-      ->check(CLI::IsMember({"auto", "tags", "shape"}))
-      ->type_name("auto|tags|shape")
+  verb->add_option("-l,--link", flags->link,
+                   "what links mesh and CAD. A MeshLink file (.xml); tags: the surface tags of "
+                   "the mesh; shape: place and shape alone; auto: tags if they fit the CAD, else "
+                   "shape")
+      ->type_name("LINK|auto|tags|shape")
       ->capture_default_str();
-  verb->add_option("--patch", flags->patches,
-                   "how a patch behaves, by name or surface number: free, fixed, plane or wall; "
-                   "or the CAD faces it lies on: face_3,face_4 or cad:NAME; "
-                   "may be given several times; default: by its tag and shape")
-      ->type_name("NAME=RULE")
-      ->expected(1)
-      ->take_all();
+  add_patch_flag(*verb, flags->patches);
   verb->add_flag("--fit", flags->options.fit,
                  "slide wall nodes along the CAD until the faces follow it as closely as their "
                  "order can; default: evenly spread nodes");

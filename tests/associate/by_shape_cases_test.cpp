@@ -34,9 +34,8 @@ MeshData stripped(MeshData data) {
 class ByShape : public ::testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    const std::string root = GetParam().is_shared
-                                 ? std::string(CAMBER_SHARED_CASES) + "/"
-                                 : std::string(CAMBER_SOURCE_DIR) + "/cases/";
+    const std::string root = GetParam().is_shared ? std::string(CAMBER_SHARED_CASES) + "/"
+                                                  : std::string(CAMBER_SOURCE_DIR) + "/cases/";
     if (!std::filesystem::exists(root + GetParam().mesh)) GTEST_SKIP() << "no " << GetParam().mesh;
     tagged_ = io::read_mesh(root + GetParam().mesh);
     geometry_ = read_cad(root + GetParam().cad);

@@ -2,6 +2,7 @@
 #include <camber/associate/cad_scale.hpp>
 #include <camber/base/error.hpp>
 #include <camber/pipeline/cad_link.hpp>
+#include <camber/pipeline/mesh_link.hpp>
 
 #include <optional>
 
@@ -16,6 +17,7 @@ constexpr double k_sure = 0.7;
 }  // namespace
 
 Association CadLink::link(const LinearMesh& mesh, const Topology& topology, Report& report) {
+  if (options_.link_by == LinkBy::file) return by_file(mesh, topology, report);
   if (is_by_shape_) return by_shape(mesh, topology, report);
   std::optional<GeometryError> misfit;
   if (options_.link_by == LinkBy::tags ||
@@ -43,6 +45,17 @@ Association CadLink::link(const LinearMesh& mesh, const Topology& topology, Repo
     throw GeometryError(fmt::format("{}; and by shape: {}", misfit->message(), error.message()),
                         data_.source, error.remedy());
   }
+}
+
+Association CadLink::by_file(const LinearMesh& mesh, const Topology& topology, Report& report) {
+  if (!is_scaled_) fit_cad_scale_by_shape(mesh, topology, geometry_, options_.scale);
+  is_scaled_ = true;
+  Association association = associate_given(
+      mesh, topology, geometry_, given_link(options_.mesh_link, mesh, topology, geometry_),
+      options_.association);
+  report.link.method = "file";
+  report.link.largest_distance = association.largest_distance;
+  return association;
 }
 
 Association CadLink::by_shape(const LinearMesh& mesh, const Topology& topology,

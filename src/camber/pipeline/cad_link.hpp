@@ -5,7 +5,8 @@
 
 namespace camber {
 
-/// Links a mesh to its CAD: by the mesh's tags if these fit the CAD, else by shape. The way taken
+/// Links a mesh to its CAD: as a MeshLink file says, by the mesh's tags if these
+/// fit the CAD, else by shape. The way taken
 /// for the first mesh is kept for those that follow (the same mesh after local changes).
 class CadLink {
  public:
@@ -18,13 +19,15 @@ class CadLink {
   [[nodiscard]] Association link(const LinearMesh& mesh, const Topology& topology, Report& report);
 
  private:
+  [[nodiscard]] Association by_file(const LinearMesh& mesh, const Topology& topology,
+                                    Report& report);
   [[nodiscard]] Association by_shape(const LinearMesh& mesh, const Topology& topology,
                                      Report& report) const;
 
   const MeshData& data_;
   GeometryModel& geometry_;
   const CurveOptions& options_;
-  bool is_by_shape_ = false;
+  bool is_by_shape_ = false, is_scaled_ = false;
 };
 
 }  // namespace camber

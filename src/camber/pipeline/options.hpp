@@ -1,6 +1,7 @@
 #pragma once
 #include <camber/associate/by_tags.hpp>
 #include <camber/elevate/order_rules.hpp>
+#include <camber/io/meshlink/meshlink.hpp>
 
 #include <map>
 #include <string>
@@ -26,7 +27,8 @@ enum class Smoothing {
 enum class LinkBy {
   automatic,  // tags if they fit the CAD, else shape (default)
   tags,
-  shape  // place and shape alone, tags or not
+  shape,  // place and shape alone, tags or not
+  file    // CurveOptions::mesh_link
 };
 
 /// Everything a run of curve() depends on besides its files.
@@ -40,6 +42,7 @@ struct CurveOptions {
   double scale = 0.0;      // --unit: mesh length per CAD length (read as mm); 0: found
   TagOptions association;  // --patch
   LinkBy link_by = LinkBy::automatic;
+  io::MeshLink mesh_link;      // --link FILE
   bool fit = false;            // slide wall nodes until the faces follow the CAD best
   bool split_pinched = false;  // cut cells that no curved wall can leave valid from their centre
   bool allow_invalid = false;  // write even if something is not certified

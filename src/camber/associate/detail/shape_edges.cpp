@@ -24,13 +24,14 @@ class EdgeLinker {
  public:
   EdgeLinker(const LinearMesh& mesh, const Topology& topology, const Boundary& boundary,
              const GeometryModel& model, const FaceMatch& match, const std::vector<double>& reach,
-             Association& association)
+             const std::vector<GeometryGroup>& given, Association& association)
       : mesh_(mesh),
         topology_(topology),
         boundary_(boundary),
         model_(model),
         match_(match),
         reach_(reach),
+        given_(given),
         association_(association) {}
 
   void run() {
@@ -39,7 +40,9 @@ class EdgeLinker {
         topology_.edge_count(), 64, [&] { return model_.projector(); },
         [&](std::size_t begin, std::size_t end, std::unique_ptr<Projector>& projector) {
           for (std::size_t e = begin; e < end; ++e) {
-            const int curve = curve_of(*projector, static_cast<Index>(e));
+            const bool is_given = !given_.empty() && !given_[e].empty();
+            const int curve = is_given ? nearest_given(*projector, static_cast<Index>(e))
+                                       : curve_of(*projector, static_cast<Index>(e));
             if (curve > 0) association_.edge2curve[e] = {1, curve};
           }
         });
@@ -75,6 +78,7 @@ class EdgeLinker {
     const Vec3& from = mesh_.vertices[at(topology_.edge2vertex[at(e)][0])];
     const Vec3& to = mesh_.vertices[at(topology_.edge2vertex[at(e)][1])];
     const double length = (to - from).norm();
+    if (!is_between && !given_.empty()) return 0;
     int best = 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (const GeomEntity& face : *a) {
@@ -93,6 +97,23 @@ class EdgeLinker {
           best = curve;
         }
       }
+    }
+    return best;
+  }
+
+  /// Of the curves that were given for an edge the one nearest to its ends.
+  [[nodiscard]] int nearest_given(Projector& projector, Index e) const {
+    int best = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const GeomEntity& curve : given_[at(e)]) {
+      if (curve.dim != 1 || model_.is_degenerate(curve.tag)) continue;
+      double off = 0.0;
+      for (Index v : topology_.edge2vertex[at(e)]) {
+        off = std::max(off, projector.closest(curve, mesh_.vertices[at(v)]).distance);
+      }
+      if (off >= nearest) continue;
+      nearest = off;
+      best = curve.tag;
     }
     return best;
   }
@@ -173,6 +194,7 @@ class EdgeLinker {
   const GeometryModel& model_;
   const FaceMatch& match_;
   const std::vector<double>& reach_;
+  const std::vector<GeometryGroup>& given_;
   Association& association_;
 };
 
@@ -181,8 +203,8 @@ class EdgeLinker {
 void link_edges_and_vertices(const LinearMesh& mesh, const Topology& topology,
                              const Boundary& boundary, const GeometryModel& model,
                              const FaceMatch& match, const std::vector<double>& reach,
-                             Association& association) {
-  EdgeLinker(mesh, topology, boundary, model, match, reach, association).run();
+                             const std::vector<GeometryGroup>& given, Association& association) {
+  EdgeLinker(mesh, topology, boundary, model, match, reach, given, association).run();
 }
 
 }  // namespace camber
