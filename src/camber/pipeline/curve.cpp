@@ -1,5 +1,6 @@
 #include <camber/associate/cad_scale.hpp>
 #include <camber/base/error.hpp>
+#include <camber/base/sorted_set.hpp>
 #include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/pinched.hpp>
 #include <camber/elevate/rescue.hpp>
@@ -88,6 +89,20 @@ void refuse_bad_quality(double quality) {
   if (quality >= 0.0 && quality <= 1.0) return;
   throw OptionError(fmt::format("a cost of {:g} does not exist", quality), "--quality",
                     "give a value from 0 to 1; 0.95 is the paper's");
+}
+
+/// Cells of the columns that stand on the wall itself, sorted.
+std::vector<Index> first_cells(const Topology& topology, const Wall& wall, const Columns& columns) {
+  std::vector<Index> first;
+  for (std::size_t slot = 0; slot < wall.face_count(); ++slot) {
+    for (Index c : topology.face2cell[at(wall.faces[slot])]) {
+      if (c != k_none && columns.cell_face_slot[at(c)] == static_cast<Index>(slot)) {
+        first.push_back(c);
+      }
+    }
+  }
+  make_sorted_set(first);
+  return first;
 }
 
 /// Share of the curved cells from which on the start counts as tangled as a whole; below it, and
@@ -218,8 +233,8 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("smooth");
   progress("smooth", 0.85);
-  result.report.smooth =
-      smooth_stage(result.curved, result.association, geometry, options, progress);
+  result.report.smooth = smooth_stage(result.curved, result.association, geometry,
+                                      first_cells(topology, wall, columns), options, progress);
 
   watch.next("measure");
   progress("measure", 0.9);
