@@ -43,7 +43,7 @@ struct Column {
 std::vector<Column> columns() {
   using Row = LadderRow;
   const auto count = [](const char* name, auto member) -> Column {
-    return {name, 7, [=](const Row& row) { return fmt::format("{}", row.*member); }};
+    return {name, 8, [=](const Row& row) { return fmt::format("{}", row.*member); }};
   };
   const auto number = [](const char* name, const char* format, auto value) -> Column {
     return {name, 9, [=](const Row& row) { return fmt::format(fmt::runtime(format), value(row)); }};
@@ -137,6 +137,7 @@ std::string json_of(const std::vector<LadderRow>& rows) {
                    {"lowered", row.lowered},
                    {"scaled_back", row.scaled_back},
                    {"iterations", row.iterations},
+                   {"products", row.products},
                    {"certify_cpu_s", row.certify_s},
                    {"rescue_cpu_s", row.rescue_s},
                    {"smooth_cpu_s", row.smooth_s},
@@ -241,10 +242,13 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--order", flags.orders, "orders")
       ->delimiter(',')
       ->check(CLI::Range(2, k_max_order));
-  app.add_option("--start", flags.starts, "carried (through the layers), cell (wall cells alone)")
+  app.add_option("--start", flags.starts,
+                 "carried (through the layers), elastic (a linear solve), cell (wall cells alone)")
       ->delimiter(',')
-      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, Propagation>>{
-          {"carried", Propagation::layer}, {"cell", Propagation::cell}}));
+      ->transform(CLI::CheckedTransformer(
+          std::vector<std::pair<std::string, Propagation>>{{"carried", Propagation::layer},
+                                                           {"elastic", Propagation::elastic},
+                                                           {"cell", Propagation::cell}}));
   app.add_option("--smooth", flags.smoothers, "none, auto, marching")
       ->delimiter(',')
       ->transform(CLI::CheckedTransformer(

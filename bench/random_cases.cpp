@@ -59,9 +59,11 @@ int parse_and_run(int argc, char** argv) {
       "random_cases");
   app.add_option("--seeds", flags.count, "how many");
   app.add_option("--first-seed", flags.first, "the first of them");
-  app.add_option("--start", flags.start, "carried or cell")
-      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, Propagation>>{
-          {"carried", Propagation::layer}, {"cell", Propagation::cell}}));
+  app.add_option("--start", flags.start, "carried, elastic or cell")
+      ->transform(CLI::CheckedTransformer(
+          std::vector<std::pair<std::string, Propagation>>{{"carried", Propagation::layer},
+                                                           {"elastic", Propagation::elastic},
+                                                           {"cell", Propagation::cell}}));
   app.add_option("--smooth", flags.smoothing, "none, auto or marching")
       ->transform(CLI::CheckedTransformer(
           std::vector<std::pair<std::string, Smoothing>>{{"none", Smoothing::none},

@@ -4,6 +4,8 @@
 #include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/rescue.hpp>
 #include <camber/metric/element_quality.hpp>
+#include <camber/smooth/elastic.hpp>
+#include <camber/smooth/patch.hpp>
 
 #include <algorithm>
 #include <ctime>
@@ -52,7 +54,10 @@ void survey_start(const MeshData& data, const BodyCase& body, LadderRow& row) {
   const auto c = make_case(data, body.model(), row.settings.order);
   LayerFieldOptions layer;
   if (row.settings.start == Propagation::cell) layer.decay = Decay::cell;
-  const CurvedMesh curved = carried(*c, c->field(layer), row.settings.order);
+  CurvedMesh curved = carried(*c, c->field(layer), row.settings.order);
+  if (row.settings.start == Propagation::elastic) {
+    relax_elastic(curved, all_cells(c->mesh), free_nodes(curved));
+  }
   row.cells = c->mesh.cell_count();
   row.invalid_at_start = uncertified_cells(curved, all_cells(c->mesh)).size();
   row.start = mesh_cost(curved);
@@ -84,6 +89,7 @@ void read_result(const CurveResult& result, LadderRow& row) {
   row.smoothed_faces = report.rescue.faces_smoothed;
   row.lowered = report.rescue.orders_lowered;
   row.scaled_back = report.rescue.scaled_back;
+  row.products = report.rescue.elastic_products;
   row.min_jacobian_ratio = report.validity.min_jacobian_ratio;
   std::map<std::pair<std::string, int>, int> iterations;
   for (const SmoothRow& step : report.smooth) {
@@ -119,6 +125,8 @@ const char* name_of(Propagation start) {
   switch (start) {
     case Propagation::layer:
       return "carried";
+    case Propagation::elastic:
+      return "elastic";
     case Propagation::cell:
       return "cell";
   }

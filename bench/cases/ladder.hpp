@@ -29,7 +29,10 @@ struct LadderRow {
   std::size_t invalid_at_end = 0;
   std::size_t patches = 0, smoothed_faces = 0, lowered = 0, scaled_back = 0;  // rescues
   int iterations = 0;                                                         // of smoothing
-  double certify_s = 0.0, rescue_s = 0.0, smooth_s = 0.0;                     // CPU seconds
+  /// With the stiffness, of the elastic solve that replaced a tangled start.
+  std::size_t products = 0;
+  // CPU seconds; what replaces a tangled start counts as certification.
+  double certify_s = 0.0, rescue_s = 0.0, smooth_s = 0.0;
   MeshCost start, end;
   double min_jacobian_ratio = 1.0;  // certified
 
@@ -51,7 +54,7 @@ struct LadderRow {
 /// Fills in what the result of curve() and the CPU clock of its stages say.
 void read_result(const CurveResult& result, LadderRow& row);
 
-[[nodiscard]] const char* name_of(Propagation start);    // "carried", "cell"
+[[nodiscard]] const char* name_of(Propagation start);    // "carried", "elastic", "cell"
 [[nodiscard]] const char* name_of(Smoothing smoothing);  // "auto", "marching", "none"
 
 }  // namespace camber::testing
