@@ -154,8 +154,10 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("smooth");
   progress("smooth", 0.85);
-  result.report.smooth =
-      smooth_stage(result.curved, result.association, geometry, options, progress);
+  SmoothOutcome smoothed =
+      smooth_stage(*result.curved, result.association, geometry, options, progress);
+  result.report.smooth = std::move(smoothed.rows);
+  result.report.rescue.put_back = smoothed.put_back;
 
   watch.next("measure");
   progress("measure", 0.9);

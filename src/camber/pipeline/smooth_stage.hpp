@@ -11,13 +11,18 @@
 
 namespace camber {
 
-/// Smooths as the options say. The mesh may be replaced by one of higher orders; every cell that
-/// was certified is so afterwards: where smoothing lost a certificate the state before is put back.
-/// Deterministic for any number of threads.
-/// @return what was done, row by row; empty if nothing was asked for
+struct SmoothOutcome {
+  std::vector<SmoothRow> rows;  // as smoothing went
+  std::size_t put_back = 0;     // cells that got their state before smoothing back
+};
+
+/// Smooths as the options say. The mesh may be replaced by one of higher orders. Every cell that
+/// was certified is so afterwards: edges, faces and insides of cells that lost their certificate
+/// get their shape from before, until all are certified again. Deterministic for any number of
+/// threads.
 /// @throws Cancelled through progress
-std::vector<SmoothRow> smooth_stage(std::unique_ptr<CurvedMesh>& curved,
-                                    const Association& association, const GeometryModel& geometry,
-                                    const CurveOptions& options, const Progress& progress);
+SmoothOutcome smooth_stage(CurvedMesh& curved, const Association& association,
+                           const GeometryModel& geometry, const CurveOptions& options,
+                           const Progress& progress);
 
 }  // namespace camber

@@ -1,0 +1,51 @@
+#pragma once
+// Iterative perturbation-based smoothing, the paper's section 2.2.5, as a whole.
+#include <camber/smooth/marching/elevation.hpp>
+#include <camber/smooth/marching/marcher.hpp>
+#include <camber/smooth/smooth_row.hpp>
+
+#include <vector>
+
+namespace camber {
+
+struct MarchingOptions {
+  double relaxation = 0.05;  // the paper's
+  double threshold = 0.95;   // convergence: nodes of a higher cost do not move
+  int max_sweeps = 400;      // of one pass
+  /// A pass ends when its best state was not bettered for so many sweeps by at least
+  /// `least_gain` in the mean or the worst cost.
+  int patience = 50;
+  double least_gain = 1e-4;
+  int deviation_interval = 50;     // sweeps between deviation tests in the volume
+  double volume_deviation = 0.05;  // share of a cell's shortest edge
+  int max_order = 4;
+};
+
+/// Boundary that may be smoothed, and how its nodes stay on it.
+struct MarchingBoundary {
+  std::vector<Index> faces;  // elements of the surface stage
+  FixedEntities fixed;       // edges and faces whose nodes must not move in the surface stage
+  OntoBoundary onto;
+};
+
+struct MarchingResult {
+  std::vector<SmoothRow> rows;
+  std::size_t raised_cells = 0;    // in order
+  std::vector<Index> uncertified;  // cells at the end, sorted
+};
+
+/// Surface smoothing, then volume smoothing with the boundary fixed. Each in passes: the first with
+/// normalised Jacobians of sub-simplices; while elements are not certified one more with another
+/// level of subdivision, up to two. Every pass leaves the best state it saw: fewest negative
+/// elements, then (while there are some) the highest worst cost, then the highest mean cost of
+/// those states whose worst cost is not below that of the first. In the volume the deviation test
+/// runs every `deviation_interval` sweeps, and raises cells (elevation.hpp); `curved` then gets
+/// other orders. Vertices stay. In debug builds neighbours of different order are checked to share
+/// their shape before, during and after.
+/// Source: [karman2022] 2.2.5. Deterministic for any number of threads.
+/// @param listener  gets every row as it is made; what it throws leaves `curved` between two sweeps
+MarchingResult smooth_by_marching(CurvedMesh& curved, const MarchingBoundary& boundary,
+                                  const MarchingOptions& options,
+                                  const SmoothListener& listener = {});
+
+}  // namespace camber
