@@ -162,7 +162,7 @@ class Smoother {
 
   bool raise(int level) {
     ElevationOptions elevation{options_.max_order, options_.volume_deviation,
-                               options_.deviation_interval, marcher_options(level)};
+                               options_.release_sweeps, marcher_options(level)};
     const std::vector<Index> cells = cells_to_raise(curved_, volume_fixed_, elevation);
     if (cells.empty()) return false;
     std::vector<std::uint8_t> orders = raised_orders(curved_, cells);
