@@ -105,28 +105,53 @@ std::vector<Jacobian<d>> jacobians(const Tabulation& table, std::span<const Vec3
   return J;
 }
 
-/// The Jacobian at a point as a function of the corners of one sub-simplex.
+/// Normalised Jacobian at a survey point, and its derivatives by the entries of dx/dxi: the same
+/// for all sub-simplices that share the point.
 template <int d>
-Eigen::Matrix<CornerDual<d>, 3, d> with_derivatives(const Jacobian<d>& J, const Survey& survey,
-                                                    int point, const SubSimplex& s) {
-  Eigen::Matrix<CornerDual<d>, 3, d> A;
-  for (int c = 0; c < d; ++c) {
-    for (int r = 0; r < 3; ++r) {
-      A(r, c) = CornerDual<d>(J(r, c));
-      for (int k = 0; k <= d; ++k) {
-        A(r, c).d[sz(3 * k + r)] = survey.curved.gradient[sz(c)](point, s[sz(k)]);
-      }
-    }
-  }
-  return A;
+struct PointRatio {
+  double tau = 1.0;
+  Jacobian<d> slope = Jacobian<d>::Zero();
+};
+
+template <int d>
+using EntryDual = Dual<3 * d>;  // number 3 c + r for row r of column c
+
+EntryDual<3> ratio(const Eigen::Matrix<EntryDual<3>, 3, 3>& A, const Jacobian<3>& W) {
+  return normalized_jacobian<EntryDual<3>, 3>(A, W.inverse());
+}
+EntryDual<2> ratio(const Eigen::Matrix<EntryDual<2>, 3, 2>& A, const Jacobian<2>& W) {
+  return surface_normalized_jacobian<EntryDual<2>>(cross_product<EntryDual<2>>(A.col(0), A.col(1)),
+                                                   W.col(0).cross(W.col(1)));
 }
 
-CornerDual<3> point_jacobian(const Eigen::Matrix<CornerDual<3>, 3, 3>& A, const Jacobian<3>& W) {
-  return normalized_jacobian<CornerDual<3>, 3>(A, W.inverse());
+template <int d>
+PointRatio<d> point_ratio(const Jacobian<d>& J, const Jacobian<d>& W) {
+  Eigen::Matrix<EntryDual<d>, 3, d> A;
+  for (int c = 0; c < d; ++c) {
+    for (int r = 0; r < 3; ++r) A(r, c) = EntryDual<d>::variable(J(r, c), 3 * c + r);
+  }
+  const EntryDual<d> tau = ratio(A, W);
+  PointRatio<d> result;
+  result.tau = tau.v;
+  for (int c = 0; c < d; ++c) {
+    for (int r = 0; r < 3; ++r) result.slope(r, c) = tau.d[sz(3 * c + r)];
+  }
+  return result;
 }
-CornerDual<2> point_jacobian(const Eigen::Matrix<CornerDual<2>, 3, 2>& A, const Jacobian<2>& W) {
-  return surface_normalized_jacobian<CornerDual<2>>(
-      cross_product<CornerDual<2>>(A.col(0), A.col(1)), W.col(0).cross(W.col(1)));
+
+/// The same as a function of the corners of a sub-simplex: dx/dxi = sum_k x_k (dN_k/dxi)^T + rest.
+template <int d>
+CornerDual<d> by_corners(const PointRatio<d>& point, const Survey& survey, int row,
+                         const SubSimplex& s) {
+  CornerDual<d> tau(point.tau);
+  for (int k = 0; k <= d; ++k) {
+    Vec3 slope = Vec3::Zero();
+    for (int c = 0; c < d; ++c) {
+      slope += survey.curved.gradient[sz(c)](row, s[sz(k)]) * point.slope.col(c);
+    }
+    for (int r = 0; r < 3; ++r) tau.d[sz(3 * k + r)] = slope(r);
+  }
+  return tau;
 }
 
 template <int d>
@@ -146,12 +171,13 @@ void element_costs(Shape shape, int p, std::span<const Vec3> x, std::span<const 
                    std::vector<SubCost<d>>& costs) {
   const std::span<const SubSimplex> simplices = sub_simplices(shape, p);
   costs.resize(simplices.size());
-  std::vector<Jacobian<d>> A, W;
+  std::vector<PointRatio<d>> ratios;
   const Survey* survey = nullptr;
   if (level > 0) {
     survey = &survey_of(shape, p, level);
-    A = jacobians<d>(survey->curved, x);
-    W = jacobians<d>(survey->straight, X, &survey->corner_node);
+    const std::vector<Jacobian<d>> A = jacobians<d>(survey->curved, x);
+    const std::vector<Jacobian<d>> W = jacobians<d>(survey->straight, X, &survey->corner_node);
+    for (std::size_t q = 0; q < A.size(); ++q) ratios.push_back(point_ratio<d>(A[q], W[q]));
   }
   std::vector<CornerDual<d>> at_points;
   for (std::size_t i = 0; i < simplices.size(); ++i) {
@@ -164,8 +190,7 @@ void element_costs(Shape shape, int p, std::span<const Vec3> x, std::span<const 
     } else {
       at_points.clear();
       for (int point : survey->of_simplex[i]) {
-        at_points.push_back(
-            point_jacobian(with_derivatives<d>(A[sz(point)], *survey, point, s), W[sz(point)]));
+        at_points.push_back(by_corners<d>(ratios[sz(point)], *survey, point, s));
       }
       tau = biased_jacobian<CornerDual<d>>(at_points);
     }

@@ -4,6 +4,7 @@
 #include <camber/validity/batch.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace camber {
@@ -47,39 +48,56 @@ bool has_folded_face(const CurvedMesh& curved, const std::vector<Index>& faces) 
   });
 }
 
-/// The best state of a pass, and when it was last bettered by more than a little.
+/// How good a state is: fewer negative elements first; then, while there are some, the mean cost;
+/// then the biased average, eq. (5), of the elements' costs.
+struct Merit {
+  std::size_t negative_elements = 0;
+  double value = 0.0;
+
+  explicit Merit(const MarchState& s)
+      : negative_elements(s.negative_elements),
+        value(s.negative_elements > 0 ? s.mean_cost
+                                      : biased_average(s.worst_cost, s.worst_cost, s.mean_cost)) {}
+  [[nodiscard]] bool betters(const Merit& other, double gain) const {
+    if (negative_elements != other.negative_elements) {
+      return negative_elements < other.negative_elements;
+    }
+    return value > other.value + gain;
+  }
+};
+
+/// The best state of a stretch. One without negative elements must have its worst cost at `floor`
+/// or above.
 class BestState {
  public:
-  BestState(const MarchState& first, const Points& x, double least_gain)
-      : least_gain_(least_gain), floor_(first.worst_cost), state_(first), landmark_(first), x_(x) {}
+  BestState(const MarchState& first, const Points& x, double floor, double least_gain)
+      : least_gain_(least_gain),
+        floor_(floor),
+        state_(first),
+        best_(first),
+        landmark_(first),
+        x_(x) {}
 
-  void offer(const MarchState& state, const Points& x, int sweep) {
-    if (!is_better(state)) return;
+  /// @return true if it betters the last state that was a clear gain by one more
+  bool offer(const MarchState& state, const Points& x) {
+    const Merit merit(state);
+    const bool is_allowed = state.negative_elements > 0 || state.worst_cost >= floor_;
+    if (!is_allowed || !merit.betters(best_, 0.0)) return false;
+    best_ = merit;
     state_ = state;
     x_ = x;
-    if (state.negative_elements < landmark_.negative_elements ||
-        state.mean_cost > landmark_.mean_cost + least_gain_ ||
-        state.worst_cost > landmark_.worst_cost + least_gain_) {
-      landmark_ = state;
-      last_gain_ = sweep;
-    }
+    if (!merit.betters(landmark_, least_gain_)) return false;
+    landmark_ = merit;
+    return true;
   }
-  [[nodiscard]] int last_gain() const { return last_gain_; }
+  [[nodiscard]] const MarchState& state() const { return state_; }
   [[nodiscard]] const Points& x() const { return x_; }
 
  private:
-  [[nodiscard]] bool is_better(const MarchState& state) const {
-    if (state.negative_elements != state_.negative_elements) {
-      return state.negative_elements < state_.negative_elements;
-    }
-    if (state.negative_elements > 0) return state.worst_cost > state_.worst_cost;
-    return state.worst_cost >= std::max(0.0, floor_) && state.mean_cost > state_.mean_cost;
-  }
-
   double least_gain_, floor_;
-  MarchState state_, landmark_;
+  MarchState state_;
+  Merit best_, landmark_;
   Points x_;
-  int last_gain_ = 0;
 };
 
 class Smoother {
@@ -119,45 +137,61 @@ class Smoother {
   void surface_pass(int level) {
     MarchProblem problem = surface_problem(curved_, boundary_.fixed, boundary_.faces);
     if (problem.x.empty()) return;
-    int sweep = 0;
-    march<2>(problem, level, "surface", level + 1, sweep, options_.max_sweeps, boundary_.onto);
+    Stretch stretch{"surface", level, 0, options_.max_sweeps, {}, 0};
+    const MarchState end = march<2>(problem, stretch, boundary_.onto);
+    report(problem, end, stretch);
     store(problem, curved_);
   }
 
   /// Marches in stretches; between two of them cells may be raised, and the problem is another one.
   void volume_pass(int level) {
-    int sweep = 0;
-    for (bool is_over = false; !is_over;) {
+    Stretch stretch{"volume", level, 0, 0, {}, 0};
+    for (;;) {
       MarchProblem problem = volume_problem(curved_, volume_fixed_);
       if (problem.x.empty()) return;
-      const int end = std::min(options_.max_sweeps, sweep + options_.deviation_interval);
-      is_over = march<3>(problem, level, "volume", level + 1, sweep, end, {});
+      stretch.end = std::min(options_.max_sweeps, stretch.sweep + options_.deviation_interval);
+      const MarchState end = march<3>(problem, stretch, {});
       store(problem, curved_);
       check_interfaces();
-      const bool is_raised = raise(level);
-      is_over = sweep >= options_.max_sweeps || (is_over && !is_raised);
+      const bool has_time = stretch.sweep < options_.max_sweeps;
+      if (has_time && raise(level)) {
+        stretch.floor.reset();
+        stretch.idle = 0;
+      } else if (stretch.sweep < stretch.end || !has_time) {
+        report(problem, end, stretch);
+        return;
+      }
     }
   }
 
-  /// Sweeps until `end`, or until nothing is active or gets better. The problem is left at its best
-  /// state. @return true if it ended before `end`
+  /// A run of sweeps without a change of orders.
+  struct Stretch {
+    const char* stage;
+    int level;
+    int sweep;  // of the pass, done
+    int end;
+    // Since the pass began or cells were raised:
+    std::optional<double> floor;  // worst cost at first, 0 if it was negative
+    int idle = 0;                 // sweeps since the best state was bettered
+  };
+
+  /// Sweeps until `end`, or until nothing is active or gets better (then stretch.sweep < end). The
+  /// problem is left at its best state, which is returned.
   template <int d>
-  bool march(MarchProblem& problem, int level, const char* stage, int pass, int& sweep, int end,
-             const OntoBoundary& onto) {
-    Marcher<d> marcher(problem, marcher_options(level));
+  MarchState march(MarchProblem& problem, Stretch& stretch, const OntoBoundary& onto) {
+    Marcher<d> marcher(problem, marcher_options(stretch.level));
     MarchState state = marcher.state();
-    BestState best(state, problem.x, options_.least_gain);
-    bool is_over = false;
-    for (int start = sweep;; ++sweep) {
-      report(problem, state, stage, pass, sweep);
-      is_over = state.active_nodes == 0 || sweep - start - best.last_gain() >= options_.patience;
-      if (is_over || sweep >= end) break;
+    if (!stretch.floor) stretch.floor = state.negative_elements > 0 ? 0.0 : state.worst_cost;
+    BestState best(state, problem.x, *stretch.floor, options_.least_gain);
+    for (; stretch.sweep < stretch.end; ++stretch.sweep) {
+      if (state.active_nodes == 0 || stretch.idle >= options_.patience) break;
+      report(problem, state, stretch);
       marcher.sweep(onto);
       state = marcher.state();
-      best.offer(state, problem.x, sweep - start + 1);
+      stretch.idle = best.offer(state, problem.x) ? 0 : stretch.idle + 1;
     }
     problem.x = best.x();
-    return is_over;
+    return best.state();
   }
 
   bool raise(int level) {
@@ -174,19 +208,15 @@ class Smoother {
     return true;
   }
 
-  void report(const MarchProblem& problem, const MarchState& state, const char* stage, int pass,
-              int sweep) {
-    SmoothRow row{stage,
-                  pass,
-                  sweep,
-                  state.active_nodes,
-                  state.negative_elements,
-                  result_.raised_cells,
-                  state.worst_cost,
-                  Vec3::Zero(),
-                  0,
-                  Shape::point,
-                  0};
+  void report(const MarchProblem& problem, const MarchState& state, const Stretch& stretch) {
+    SmoothRow row;
+    row.stage = stretch.stage;
+    row.pass = stretch.level + 1;
+    row.iteration = stretch.sweep;
+    row.active_nodes = state.active_nodes;
+    row.negative_elements = state.negative_elements;
+    row.elevated_elements = result_.raised_cells;
+    row.worst_cost = state.worst_cost;
     if (!problem.elements.empty()) {
       const MarchElement& worst = problem.elements[state.worst_element];
       for (int corner : lattice_map(worst.shape, worst.order).corner) {

@@ -12,8 +12,8 @@ struct MarchingOptions {
   double relaxation = 0.05;  // the paper's
   double threshold = 0.95;   // convergence: nodes of a higher cost do not move
   int max_sweeps = 400;      // of one pass
-  /// A pass ends when its best state was not bettered for so many sweeps by at least
-  /// `least_gain` in the mean or the worst cost.
+  /// A pass ends when its best state was not bettered for so many sweeps by at least `least_gain`
+  /// in cost.
   int patience = 50;
   double least_gain = 1e-4;
   int deviation_interval = 50;     // sweeps between deviation tests in the volume
@@ -38,12 +38,12 @@ struct MarchingResult {
 /// Surface smoothing, then volume smoothing with the boundary fixed. Each in passes: the first with
 /// normalised Jacobians of sub-simplices; while elements are not certified one more with another
 /// level of subdivision, up to two. Every pass leaves the best state it saw: fewest negative
-/// elements, then (while there are some) the highest worst cost, then the highest mean cost of
-/// those states whose worst cost is not below that of the first. In the volume the deviation test
-/// runs every `deviation_interval` sweeps, and raises cells (elevation.hpp); `curved` then gets
-/// other orders. Vertices stay. In debug builds neighbours of different order are checked to share
-/// their shape before, during and after.
-/// Source: [karman2022] 2.2.5. Deterministic for any number of threads.
+/// elements; of those the highest mean cost while some are negative, else the highest biased
+/// average, eq. (5), of the elements' lowest costs, if the worst is not below that of the first. In
+/// the volume the deviation test runs every `deviation_interval` sweeps, and raises cells
+/// (elevation.hpp); `curved` then gets other orders. Vertices stay. In debug builds neighbours of
+/// different order are checked to share their shape before, during and after. Source:
+/// [karman2022] 2.2.5. Deterministic for any number of threads.
 /// @param listener  gets every row as it is made; what it throws leaves `curved` between two sweeps
 MarchingResult smooth_by_marching(CurvedMesh& curved, const MarchingBoundary& boundary,
                                   const MarchingOptions& options,
