@@ -71,7 +71,8 @@ CurvedMesh started(const Case& c, int wall_order) {
 }
 
 MarchingBoundary boundary_of(const Case& c) {
-  return marching_boundary(c.mesh, c.topology, c.association, *c.model);
+  return marching_boundary(c.mesh, c.topology, *c.model,
+                           {c.association, c.wall, *c.placement, c.columns, {}});
 }
 
 const std::vector<double> k_benign{0.0, 0.1, 0.22, 0.5};

@@ -155,7 +155,8 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   watch.next("smooth");
   progress("smooth", 0.85);
   SmoothOutcome smoothed =
-      smooth_stage(*result.curved, result.association, geometry, options, progress);
+      smooth_stage(*result.curved, geometry, {result.association, wall, placement, columns, layer},
+                   options, progress);
   result.report.smooth = std::move(smoothed.rows);
   result.report.rescue.put_back = smoothed.put_back;
 

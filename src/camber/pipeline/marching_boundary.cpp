@@ -33,26 +33,22 @@ class Boundary {
     }
   }
 
-  [[nodiscard]] std::vector<Index> faces() const {
-    std::vector<Index> faces;
+  /// Faces that may slide, on the wall or off it, and what must not move with them.
+  [[nodiscard]] MarchingSurface surface(const Wall& wall, bool is_wall) const {
+    MarchingSurface surface;
+    surface.fixed = {std::vector<std::uint8_t>(topology_.edge_count(), 1),
+                     std::vector<std::uint8_t>(topology_.face_count(), 1)};
     for (Index f = 0; at(f) < topology_.face_count(); ++f) {
-      if (can_slide_on(association_.face2patch[at(f)])) faces.push_back(f);
+      if ((wall.face_slot[at(f)] != k_none) != is_wall) continue;
+      if (!can_slide_on(association_.face2patch[at(f)])) continue;
+      surface.faces.push_back(f);
+      surface.fixed.face[at(f)] = 0;
     }
-    return faces;
-  }
-
-  [[nodiscard]] FixedEntities fixed() const {
-    FixedEntities fixed{std::vector<std::uint8_t>(topology_.edge_count(), 1),
-                        std::vector<std::uint8_t>(topology_.face_count(), 1)};
-    for (Index f : faces()) fixed.face[at(f)] = 0;
     for (Index e = 0; at(e) < topology_.edge_count(); ++e) {
-      const auto& [a, b] = edge_patches_[at(e)];
-      const bool slides = can_slide_on(a) && (b == k_none || can_slide_on(b));
-      if (slides && (is_on_curve(e) || b == k_none || (is_plane(a) && is_plane(b)))) {
-        fixed.edge[at(e)] = 0;
-      }
+      if ((wall.edge_slot[at(e)] != k_none) == is_wall && can_slide(e))
+        surface.fixed.edge[at(e)] = 0;
     }
-    return fixed;
+    return surface;
   }
 
   void put_back(Projector& projector, NodeMove& move) const {
@@ -84,6 +80,13 @@ class Boundary {
   }
   [[nodiscard]] bool is_on_curve(Index e) const { return association_.edge2curve[at(e)].dim == 1; }
 
+  /// An edge may slide along its curve, on the one patch on both sides, or where two planes meet.
+  [[nodiscard]] bool can_slide(Index e) const {
+    const auto& [a, b] = edge_patches_[at(e)];
+    if (!can_slide_on(a) || (b != k_none && !can_slide_on(b))) return false;
+    return is_on_curve(e) || b == k_none || (is_plane(a) && is_plane(b));
+  }
+
   static void take(const Projection& foot, NodeMove& move) {
     move.to = foot.status == ProjectionStatus::failed ? move.from : foot.point;
   }
@@ -106,15 +109,19 @@ class Boundary {
 }  // namespace
 
 MarchingBoundary marching_boundary(const LinearMesh& mesh, const Topology& topology,
-                                   const Association& association, const GeometryModel& geometry) {
-  const auto boundary = std::make_shared<Boundary>(mesh, topology, association, geometry);
-  MarchingBoundary result{boundary->faces(), boundary->fixed(), {}};
+                                   const GeometryModel& geometry, const FieldSource& field) {
+  const auto boundary = std::make_shared<Boundary>(mesh, topology, field.association, geometry);
+  MarchingBoundary result;
+  result.surfaces = {boundary->surface(field.wall, true), boundary->surface(field.wall, false)};
   result.onto = [boundary](std::span<NodeMove> moves) {
     parallel_for_with(
         moves.size(), k_grain, [&] { return boundary->geometry().projector(); },
         [&](std::size_t begin, std::size_t end, std::unique_ptr<Projector>& projector) {
           for (std::size_t i = begin; i < end; ++i) boundary->put_back(*projector, moves[i]);
         });
+  };
+  result.carry = [field](const CurvedMesh& before, CurvedMesh& after) {
+    carry_wall(before, after, field);
   };
   return result;
 }

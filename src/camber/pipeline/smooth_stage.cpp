@@ -1,13 +1,18 @@
+#include <camber/base/parallel.hpp>
 #include <camber/base/sorted_set.hpp>
 #include <camber/elevate/rescue.hpp>
 #include <camber/mesh/raise_orders.hpp>
+#include <camber/metric/element_quality.hpp>
 #include <camber/pipeline/marching_boundary.hpp>
 #include <camber/pipeline/smooth_stage.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace camber {
 namespace {
+
+constexpr std::size_t k_grain = 512;
 
 /// Gives the edges, faces and insides of cells the shapes of another state of the mesh.
 class Restorer {
@@ -50,48 +55,79 @@ class Restorer {
   const CurvedMesh& before_;
 };
 
-/// Puts back what lost its certificate. Ends: a pass restores something that was not restored
-/// before, or nothing is tested again.
-/// @return cells that were put back
-std::size_t keep_certified(CurvedMesh& curved, const CurvedMesh& before, std::vector<Index> bad) {
-  Restorer restorer(curved, before);
-  std::vector<Index> all;
-  while (!bad.empty()) {
-    all.insert(all.end(), bad.begin(), bad.end());
-    bad = uncertified_cells(curved, restorer.restore(bad));
-  }
-  make_sorted_set(all);
-  return all.size();
+/// Lowest cost C, eq. (2), of every cell at the Gauss points of its own order.
+std::vector<double> cell_costs(const CurvedMesh& curved, const std::vector<Index>& cells) {
+  std::vector<double> costs(cells.size(), 1.0);
+  parallel_for(cells.size(), k_grain, [&](std::size_t begin, std::size_t end) {
+    Points nodes;
+    for (std::size_t i = begin; i < end; ++i) {
+      const int p = curved.cell_order(cells[i]);
+      if (p < 2) continue;
+      curved.gather(cells[i], p, nodes);
+      costs[i] = element_cost(curved.linear().cell_shape[at(cells[i])], p, nodes).minimum;
+    }
+  });
+  return costs;
 }
 
-SmoothOutcome march(CurvedMesh& curved, const Association& association,
-                    const GeometryModel& geometry, const CurveOptions& options,
-                    const Progress& progress) {
+/// Puts back cells that lost their certificate or are worse than any was before; all if the mean
+/// cost fell. Ends: a pass restores something that was not restored before, or tests nothing again.
+/// @return cells that were put back
+std::size_t keep_the_better(CurvedMesh& curved, const CurvedMesh& before) {
+  std::vector<Index> all(curved.linear().cell_count());
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<double> cost_before = cell_costs(before, all);
+  const double lowest = *std::min_element(cost_before.begin(), cost_before.end());
+  const auto mean = [](const std::vector<double>& costs) {
+    return ordered_sum(costs.size(), [&](std::size_t i) { return costs[i]; }) /
+           static_cast<double>(costs.size());
+  };
+  const auto find_bad = [&](const std::vector<Index>& cells) {
+    std::vector<Index> bad = uncertified_cells(curved, cells);
+    const std::vector<double> costs = cell_costs(curved, cells);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (costs[i] < lowest) bad.push_back(cells[i]);
+    }
+    make_sorted_set(bad);
+    return bad;
+  };
+  Restorer restorer(curved, before);
+  std::vector<Index> restored;
+  for (std::vector<Index> bad = find_bad(all); !bad.empty();) {
+    restored.insert(restored.end(), bad.begin(), bad.end());
+    bad = find_bad(restorer.restore(bad));
+  }
+  if (mean(cell_costs(curved, all)) < mean(cost_before)) {
+    restored = restorer.restore(all);
+  }
+  make_sorted_set(restored);
+  return restored.size();
+}
+
+SmoothOutcome march(CurvedMesh& curved, const GeometryModel& geometry, const FieldSource& field,
+                    const CurveOptions& options, const Progress& progress) {
   MarchingOptions marching;
   marching.threshold = options.quality;
   marching.volume_deviation = options.orders.volume_deviation;
   marching.max_order = options.orders.max_order;
   const CurvedMesh start = curved;
   const MarchingResult result = smooth_by_marching(
-      curved, marching_boundary(curved.linear(), curved.topology(), association, geometry),
-      marching, [&](const SmoothRow& row) {
+      curved, marching_boundary(curved.linear(), curved.topology(), geometry, field), marching,
+      [&](const SmoothRow& row) {
         progress("smooth " + row.stage, IterationState{row.iteration, row.active_nodes,
                                                        row.negative_elements, row.worst_cost});
       });
-  const CurvedMesh before = raise_orders(start, curved.orders().cell);
-  SmoothOutcome outcome{result.rows, 0};
-  outcome.put_back = keep_certified(curved, before, result.uncertified);
-  return outcome;
+  return {result.rows, keep_the_better(curved, raise_orders(start, curved.orders().cell))};
 }
 
 }  // namespace
 
-SmoothOutcome smooth_stage(CurvedMesh& curved, const Association& association,
-                           const GeometryModel& geometry, const CurveOptions& options,
+SmoothOutcome smooth_stage(CurvedMesh& curved, const GeometryModel& geometry,
+                           const FieldSource& field, const CurveOptions& options,
                            const Progress& progress) {
   switch (options.smoothing) {
     case Smoothing::marching:
-      return march(curved, association, geometry, options, progress);
+      return march(curved, geometry, field, options, progress);
     case Smoothing::automatic:
     case Smoothing::none:
       break;

@@ -1,8 +1,8 @@
 #pragma once
 // The last stage before measuring: quality, once every cell is certified.
-#include <camber/associate/association.hpp>
 #include <camber/base/progress.hpp>
 #include <camber/mesh/curved_mesh.hpp>
+#include <camber/pipeline/carry_wall.hpp>
 #include <camber/pipeline/options.hpp>
 #include <camber/smooth/smooth_row.hpp>
 
@@ -17,12 +17,13 @@ struct SmoothOutcome {
 };
 
 /// Smooths as the options say. The mesh may be replaced by one of higher orders. Every cell that
-/// was certified is so afterwards: edges, faces and insides of cells that lost their certificate
-/// get their shape from before, until all are certified again. Deterministic for any number of
-/// threads.
+/// was certified is so afterwards, and the lowest cost of all cells is not lower: edges, faces and
+/// insides of cells that lost their certificate, or fell below the lowest cost from before, get
+/// their shape from before, until none is left; all do if the mean cost would be lower.
+/// Deterministic for any number of threads.
 /// @throws Cancelled through progress
-SmoothOutcome smooth_stage(CurvedMesh& curved, const Association& association,
-                           const GeometryModel& geometry, const CurveOptions& options,
+SmoothOutcome smooth_stage(CurvedMesh& curved, const GeometryModel& geometry,
+                           const FieldSource& field, const CurveOptions& options,
                            const Progress& progress);
 
 }  // namespace camber

@@ -40,7 +40,7 @@ struct Cube {
 };
 
 /// Boundary nodes stay.
-MarchingBoundary still() { return {{}, {}, {}}; }
+MarchingBoundary still() { return {}; }
 
 /// Moves the nodes of inner edges and faces, and of insides.
 void shake_inside(CurvedMesh& curved, double amplitude, unsigned seed) {

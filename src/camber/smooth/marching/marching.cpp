@@ -112,11 +112,15 @@ class Smoother {
 
   MarchingResult run() {
     check_interfaces();
-    for (int level = 0; level <= k_max_level; ++level) {
-      surface_pass(level);
-      if (!has_folded_face(curved_, boundary_.faces)) break;
+    for (const MarchingSurface& surface : boundary_.surfaces) {
+      const CurvedMesh before = curved_;
+      for (int level = 0; level <= k_max_level; ++level) {
+        surface_pass(surface, level);
+        if (!has_folded_face(curved_, surface.faces)) break;
+      }
+      if (boundary_.carry) boundary_.carry(before, curved_);
+      check_interfaces();
     }
-    check_interfaces();
     for (int level = 0; level <= k_max_level; ++level) {
       volume_pass(level);
       result_.uncertified = uncertified(curved_);
@@ -134,8 +138,8 @@ class Smoother {
     return {level, options_.relaxation, options_.threshold};
   }
 
-  void surface_pass(int level) {
-    MarchProblem problem = surface_problem(curved_, boundary_.fixed, boundary_.faces);
+  void surface_pass(const MarchingSurface& surface, int level) {
+    MarchProblem problem = surface_problem(curved_, surface.fixed, surface.faces);
     if (problem.x.empty()) return;
     Stretch stretch{"surface", level, 0, options_.max_sweeps, {}, 0};
     const MarchState end = march<2>(problem, stretch, boundary_.onto);
@@ -146,10 +150,11 @@ class Smoother {
   /// Marches in stretches; between two of them cells may be raised, and the problem is another one.
   void volume_pass(int level) {
     Stretch stretch{"volume", level, 0, 0, {}, 0};
+    int interval = options_.deviation_interval;
     for (;;) {
       MarchProblem problem = volume_problem(curved_, volume_fixed_);
       if (problem.x.empty()) return;
-      stretch.end = std::min(options_.max_sweeps, stretch.sweep + options_.deviation_interval);
+      stretch.end = std::min(options_.max_sweeps, stretch.sweep + interval);
       const MarchState end = march<3>(problem, stretch, {});
       store(problem, curved_);
       check_interfaces();
@@ -157,9 +162,12 @@ class Smoother {
       if (has_time && raise(level)) {
         stretch.floor.reset();
         stretch.idle = 0;
+        interval = options_.deviation_interval;
       } else if (stretch.sweep < stretch.end || !has_time) {
         report(problem, end, stretch);
         return;
+      } else {
+        interval *= 2;  // what is at rest need not be asked so often
       }
     }
   }

@@ -22,11 +22,19 @@ struct MarchingOptions {
   int max_order = 4;
 };
 
-/// Boundary that may be smoothed, and how its nodes stay on it.
+/// Faces that are smoothed together.
+struct MarchingSurface {
+  std::vector<Index> faces;
+  FixedEntities fixed;  // edges and faces whose nodes must not move meanwhile
+};
+
+/// Boundary that may be smoothed, and what depends on it.
 struct MarchingBoundary {
-  std::vector<Index> faces;  // elements of the surface stage
-  FixedEntities fixed;       // edges and faces whose nodes must not move in the surface stage
-  OntoBoundary onto;
+  std::vector<MarchingSurface> surfaces;  // one after the other
+  OntoBoundary onto;                      // keeps their nodes where they belong
+  /// Carries the change of a surface from `before` to `after` on to the nodes that are not on it:
+  /// the transfer of 2.2.4. Nothing is carried if it is empty.
+  std::function<void(const CurvedMesh& before, CurvedMesh& after)> carry;
 };
 
 struct MarchingResult {
@@ -35,15 +43,15 @@ struct MarchingResult {
   std::vector<Index> uncertified;  // cells at the end, sorted
 };
 
-/// Surface smoothing, then volume smoothing with the boundary fixed. Each in passes: the first with
-/// normalised Jacobians of sub-simplices; while elements are not certified one more with another
-/// level of subdivision, up to two. Every pass leaves the best state it saw: fewest negative
-/// elements; of those the highest mean cost while some are negative, else the highest biased
-/// average, eq. (5), of the elements' lowest costs, if the worst is not below that of the first. In
-/// the volume the deviation test runs every `deviation_interval` sweeps, and raises cells
-/// (elevation.hpp); `curved` then gets other orders. Vertices stay. In debug builds neighbours of
-/// different order are checked to share their shape before, during and after. Source:
-/// [karman2022] 2.2.5. Deterministic for any number of threads.
+/// Surface smoothing, the transfer of what it changed, then volume smoothing with the boundary
+/// fixed. Smoothing goes in passes: the first with normalised Jacobians of sub-simplices; while
+/// elements are not certified one more with another level of subdivision, up to two. Every pass
+/// leaves the best state it saw: fewest negative elements; of those the highest mean cost while
+/// some are negative, else the highest biased average, eq. (5), of the elements' lowest costs, if
+/// the worst is not below that of the first. In the volume the deviation test runs every
+/// `deviation_interval` sweeps, and raises cells (elevation.hpp); `curved` then gets other orders.
+/// Vertices stay. In debug builds neighbours of different order are checked to share their shape
+/// before, during and after. Source: [karman2022] 2.2.5. Deterministic for any number of threads.
 /// @param listener  gets every row as it is made; what it throws leaves `curved` between two sweeps
 MarchingResult smooth_by_marching(CurvedMesh& curved, const MarchingBoundary& boundary,
                                   const MarchingOptions& options,
