@@ -16,7 +16,8 @@ struct MarchingOptions {
   /// in cost.
   int patience = 50;
   double least_gain = 1e-4;
-  int deviation_interval = 50;     // sweeps between deviation tests in the volume
+  /// Sweeps between deviation tests in the volume; doubled after a test that raises nothing.
+  int deviation_interval = 50;
   int release_sweeps = 50;         // of a released interface in such a test
   double volume_deviation = 0.05;  // share of a cell's shortest edge
   int max_order = 4;
