@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <mutex>
+#include <type_traits>
 
 namespace camber {
 namespace {
@@ -154,6 +155,64 @@ CornerDual<d> by_corners(const PointRatio<d>& point, const Survey& survey, int r
   return tau;
 }
 
+/// Costs of one sub-triangle: derivatives by its corners all the way.
+class Triangle {
+ public:
+  Triangle(const SimplexCorners<double, 2>& x, const SimplexCorners<double, 2>& X)
+      : ideal_(ideal_simplex(X)), v_(variables<2>(x)) {}
+
+  /// Level 0.
+  [[nodiscard]] CornerDual<2> cost() const { return cost(sub_normalized_jacobian(v_, ideal_)); }
+  [[nodiscard]] CornerDual<2> cost(const CornerDual<2>& tau) const {
+    return tau.v <= 0.0 ? tau : camber::cost(tau, sub_condition_number(v_, ideal_));
+  }
+
+ private:
+  IdealSimplex<2> ideal_;
+  SimplexCorners<CornerDual<2>, 2> v_;
+};
+
+/// Costs of one sub-tetrahedron: they depend on its corners through S = A W^-1 alone, so the nine
+/// entries of S are the variables, and the (linear) rest of the chain is applied to the result.
+class Tetrahedron {
+ public:
+  Tetrahedron(const SimplexCorners<double, 3>& x, const SimplexCorners<double, 3>& X)
+      : ideal_(ideal_simplex(X)) {
+    const Mat3 S = sub_map(x, ideal_);
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) S_(r, c) = Dual<9>::variable(S(r, c), 3 * c + r);
+    }
+  }
+
+  /// Level 0.
+  [[nodiscard]] CornerDual<3> cost() const {
+    const Dual<9> tau = S_.determinant();
+    return by_corners(tau.v <= 0.0 ? tau : camber::cost(tau, condition_number<Dual<9>, 3>(S_)));
+  }
+  [[nodiscard]] CornerDual<3> cost(const CornerDual<3>& tau) const {
+    if (tau.v <= 0.0) return tau;
+    return camber::cost(tau, by_corners(condition_number<Dual<9>, 3>(S_)));
+  }
+
+ private:
+  /// S = A W^-1, A = [x1 - x0, x2 - x0, x3 - x0].
+  [[nodiscard]] CornerDual<3> by_corners(const Dual<9>& f) const {
+    const Mat3 by_S = Eigen::Map<const Mat3>(f.d.data());
+    const Mat3 by_A = by_S * ideal_.W_inverse.transpose();
+    CornerDual<3> result(f.v);
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        result.d[sz(3 * (c + 1) + r)] = by_A(r, c);
+        result.d[sz(r)] -= by_A(r, c);
+      }
+    }
+    return result;
+  }
+
+  IdealSimplex<3> ideal_;
+  Mat<Dual<9>, 3> S_;
+};
+
 template <int d>
 SubCost<d> unpacked(const CornerDual<d>& cost) {
   SubCost<d> result;
@@ -182,19 +241,17 @@ void element_costs(Shape shape, int p, std::span<const Vec3> x, std::span<const 
   std::vector<CornerDual<d>> at_points;
   for (std::size_t i = 0; i < simplices.size(); ++i) {
     const SubSimplex& s = simplices[i];
-    const IdealSimplex<d> ideal = ideal_simplex(corners_of<d>(s, X));
-    const SimplexCorners<CornerDual<d>, d> v = variables<d>(corners_of<d>(s, x));
-    CornerDual<d> tau;
+    const std::conditional_t<d == 2, Triangle, Tetrahedron> simplex(corners_of<d>(s, x),
+                                                                    corners_of<d>(s, X));
     if (level == 0) {
-      tau = sub_normalized_jacobian(v, ideal);
-    } else {
-      at_points.clear();
-      for (int point : survey->of_simplex[i]) {
-        at_points.push_back(by_corners<d>(ratios[sz(point)], *survey, point, s));
-      }
-      tau = biased_jacobian<CornerDual<d>>(at_points);
+      costs[i] = unpacked<d>(simplex.cost());
+      continue;
     }
-    costs[i] = unpacked<d>(sub_cost<CornerDual<d>, d>(tau, v, ideal));
+    at_points.clear();
+    for (int point : survey->of_simplex[i]) {
+      at_points.push_back(by_corners<d>(ratios[sz(point)], *survey, point, s));
+    }
+    costs[i] = unpacked<d>(simplex.cost(biased_jacobian<CornerDual<d>>(at_points)));
   }
 }
 

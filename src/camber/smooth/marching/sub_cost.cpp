@@ -24,4 +24,8 @@ IdealSimplex<3> ideal_simplex(const SimplexCorners<double, 3>& X) {
   return ideal;
 }
 
+Mat3 sub_map(const SimplexCorners<double, 3>& x, const IdealSimplex<3>& ideal) {
+  return edge_matrix<double, 3>(x) * ideal.W_inverse;
+}
+
 }  // namespace camber

@@ -47,12 +47,6 @@ template <Scalar T>
   return weighted_condition_number<T, 2>(triangle_weight_matrix<T>(edge_lengths<T>(x)),
                                          ideal.W_inverse);
 }
-/// Weighted condition number of a sub-tetrahedron, eq. (6), from its edge vectors: equal to the
-/// matrix from its edge lengths up to a rotation or reflection, which the norms do not see.
-template <Scalar T>
-[[nodiscard]] T sub_condition_number(const SimplexCorners<T, 3>& x, const IdealSimplex<3>& ideal) {
-  return weighted_condition_number<T, 3>(edge_matrix<T, 3>(x), ideal.W_inverse);
-}
 
 /// Normalised Jacobian by the area of the sub-triangle, signed by the normals (Fig. 8a).
 template <Scalar T>
@@ -60,21 +54,11 @@ template <Scalar T>
                                         const IdealSimplex<2>& ideal) {
   return surface_normalized_jacobian<T>(cross_product<T>(x[1] - x[0], x[2] - x[0]), ideal.normal);
 }
-/// Normalised Jacobian by the volume of the sub-tetrahedron (Fig. 11a).
-template <Scalar T>
-[[nodiscard]] T sub_normalized_jacobian(const SimplexCorners<T, 3>& x,
-                                        const IdealSimplex<3>& ideal) {
-  return normalized_jacobian<T, 3>(edge_matrix<T, 3>(x), ideal.W_inverse);
-}
 
-/// Cost of a sub-simplex, eq. (2): C = min(1, tau) / WCN, tau itself where it is not positive.
-/// Source: [karman2022] 2.2.5.
-/// @param tau  normalised Jacobian: sub_normalized_jacobian, or biased_jacobian of more points
-template <Scalar T, int d>
-[[nodiscard]] T sub_cost(const T& tau, const SimplexCorners<T, d>& x,
-                         const IdealSimplex<d>& ideal) {
-  return value(tau) <= 0.0 ? tau : cost(tau, sub_condition_number(x, ideal));
-}
+/// S = A W^-1 of a sub-tetrahedron, from its edge vectors: equal to that from its edge lengths
+/// (Fig. 9) up to a rotation or reflection, which the norms in eq. (6) do not see. WCN is
+/// condition_number(S), the normalised Jacobian by volume (Fig. 11a) det S.
+[[nodiscard]] Mat3 sub_map(const SimplexCorners<double, 3>& x, const IdealSimplex<3>& ideal);
 
 /// Biased weighting, eq. (5), of the normalised Jacobians at points of a sub-simplex, C = F = tau
 /// (Figs 8b, 8c, 11b, 11c). "Assuming the range is from 0 to 1": larger values count as 1, as in
