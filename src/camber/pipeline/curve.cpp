@@ -91,20 +91,6 @@ void refuse_bad_quality(double quality) {
                     "give a value from 0 to 1; 0.95 is the paper's");
 }
 
-/// Cells of the columns that stand on the wall itself, sorted.
-std::vector<Index> first_cells(const Topology& topology, const Wall& wall, const Columns& columns) {
-  std::vector<Index> first;
-  for (std::size_t slot = 0; slot < wall.face_count(); ++slot) {
-    for (Index c : topology.face2cell[at(wall.faces[slot])]) {
-      if (c != k_none && columns.cell_face_slot[at(c)] == static_cast<Index>(slot)) {
-        first.push_back(c);
-      }
-    }
-  }
-  make_sorted_set(first);
-  return first;
-}
-
 /// Share of the curved cells from which on the start counts as tangled as a whole; below it, and
 /// with layers carried, it is a matter for single patches.
 constexpr double k_tangled_share = 0.25;
@@ -233,8 +219,11 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("smooth");
   progress("smooth", 0.85);
-  result.report.smooth = smooth_stage(result.curved, result.association, geometry,
-                                      first_cells(topology, wall, columns), options, progress);
+  SmoothOutcome smoothed =
+      smooth_stage(*result.curved, geometry, {result.association, wall, placement, columns, layer},
+                   options, progress);
+  result.report.smooth = std::move(smoothed.rows);
+  result.report.rescue.put_back = smoothed.put_back;
 
   watch.next("measure");
   progress("measure", 0.9);

@@ -27,15 +27,6 @@ double cost_of(const CurvedMesh& curved, Index c, Points& nodes) {
   return element_cost(curved.linear().cell_shape[at(c)], p, nodes).minimum;
 }
 
-std::vector<double> costs_of(const CurvedMesh& curved, const std::vector<Index>& cells) {
-  std::vector<double> costs(cells.size());
-  parallel_for(cells.size(), 64, [&](std::size_t begin, std::size_t end) {
-    Points nodes;
-    for (std::size_t i = begin; i < end; ++i) costs[i] = cost_of(curved, cells[i], nodes);
-  });
-  return costs;
-}
-
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -162,10 +153,19 @@ bool polish_patch(CurvedMesh& curved, const std::vector<Index>& core,
 
 }  // namespace
 
+std::vector<double> cell_costs(const CurvedMesh& curved, const std::vector<Index>& cells) {
+  std::vector<double> costs(cells.size());
+  parallel_for(cells.size(), 64, [&](std::size_t begin, std::size_t end) {
+    Points nodes;
+    for (std::size_t i = begin; i < end; ++i) costs[i] = cost_of(curved, cells[i], nodes);
+  });
+  return costs;
+}
+
 std::vector<double> cell_costs(const CurvedMesh& curved) {
   std::vector<Index> cells(curved.linear().cell_count());
   std::iota(cells.begin(), cells.end(), 0);
-  return costs_of(curved, cells);
+  return cell_costs(curved, cells);
 }
 
 PolishResult polish(CurvedMesh& curved, const std::vector<std::uint8_t>& is_free,

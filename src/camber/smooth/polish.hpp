@@ -38,7 +38,10 @@ PolishResult polish(CurvedMesh& curved, const std::vector<std::uint8_t>& is_free
                     std::vector<double>& costs, const PolishOptions& options = {},
                     const SmoothListener& listener = {});
 
-/// Lowest C, eq. (2), of every cell at the points of element_cost; 1 for cells of order 1.
+/// Lowest C, eq. (2), of every cell (or of some) at the points of element_cost; 1 for cells of
+/// order 1.
 [[nodiscard]] std::vector<double> cell_costs(const CurvedMesh& curved);
+[[nodiscard]] std::vector<double> cell_costs(const CurvedMesh& curved,
+                                             const std::vector<Index>& cells);
 
 }  // namespace camber
