@@ -24,6 +24,7 @@ struct CurveFlags {
   CurveOptions options;
   std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
                     smoothing = "auto";
+  bool is_quality_given = false;
   std::vector<std::string> geometry, outputs, patches;
 };
 
@@ -68,7 +69,10 @@ CurveOptions options_of(const CurveFlags& flags) {
   options.scale = scale_of_unit(flags.unit);
   set_deviation_length(flags.deviation_length, options.orders);
   set_patches(flags.patches, options.association);
-  options.propagation = flags.propagation == "cell" ? Propagation::cell : Propagation::layer;
+  options.propagation = flags.propagation == "cell"      ? Propagation::cell
+                        : flags.propagation == "elastic" ? Propagation::elastic
+                                                         : Propagation::layer;
+  if (flags.is_quality_given) options.polish_below = options.quality;
   if (flags.smoothing != "auto") {
     options.smoothing = flags.smoothing == "none" ? Smoothing::none : Smoothing::marching;
   }
@@ -163,10 +167,12 @@ int run(const CurveFlags& flags) {
 }
 
 void add_smoothing_flags(CLI::App& verb, CurveFlags& flags) {
-  verb.add_option(
-          "--smooth", flags.smoothing,
-          "marching: the paper's smoother, surface then volume, with elevation; none: leave "
-          "the certified mesh as it is; auto: as none in this release")
+  verb.add_option("--smooth", flags.smoothing,
+                  "auto: polish patches of cells with a cost below 0.6 (or --quality, if given) "
+                  "and replace "
+                  "starts that are tangled as a whole; marching: the paper's smoother, surface "
+                  "then volume, "
+                  "with elevation; none: leave the certified mesh as it is")
       ->check(CLI::IsMember({"auto", "marching", "none"}))
       ->type_name("auto|marching|none")
       ->capture_default_str();
@@ -175,6 +181,7 @@ void add_smoothing_flags(CLI::App& verb, CurveFlags& flags) {
                   "in the report [-]")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("COST")
+      ->each([&flags](const std::string&) { flags.is_quality_given = true; })
       ->capture_default_str();
 }
 
@@ -203,10 +210,10 @@ void add_order_flags(CLI::App& verb, CurveFlags& flags) {
       ->capture_default_str();
   verb.add_option(
           "--propagate", flags.propagation,
-          "layer: the wall's displacement is carried through the whole boundary layer; cell: it "
-          "dies out in the first cell, as in the paper")
-      ->check(CLI::IsMember({"layer", "cell"}))
-      ->type_name("layer|cell")
+          "layer: the wall's displacement is carried through the whole boundary layer; elastic: "
+          "spread by a linear solve; cell: it dies out in the first cell, as in the paper")
+      ->check(CLI::IsMember({"layer", "elastic", "cell"}))
+      ->type_name("layer|elastic|cell")
       ->capture_default_str();
 }
 

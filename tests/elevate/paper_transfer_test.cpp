@@ -65,14 +65,18 @@ TEST(PaperTransfer, InvertsThinCellsAndOnlyThese) {
   EXPECT_TRUE(inverted(0.8, Decay::layer).empty());
 }
 
-TEST(PaperTransfer, EndsCertifiedInAWholeRun) {
+CurveResult run_from_tangled(double first_cell, int order, Smoothing smoothing) {
   CurveOptions options;
-  options.orders.min_order = 2;
-  options.orders.max_order = 2;
+  options.orders.min_order = order;
+  options.orders.max_order = order;
   options.propagation = Propagation::cell;
+  options.smoothing = smoothing;
   const std::unique_ptr<GeometryModel> model = make_sphere(Vec3::Zero(), 1.0);
+  return curve(layered(first_cell, 0), *model, options);
+}
 
-  const CurveResult result = curve(layered(1e-2, 0), *model, options);
+TEST(PaperTransfer, EndsCertifiedInAWholeRunWithoutSmoothing) {
+  const CurveResult result = run_from_tangled(1e-2, 2, Smoothing::none);
 
   EXPECT_EQ(result.report.validity.certified, result.linear->cell_count());
   EXPECT_TRUE(uncertified_cells(*result.curved, all_cells(*result.linear)).empty());
@@ -80,6 +84,23 @@ TEST(PaperTransfer, EndsCertifiedInAWholeRun) {
                 result.report.rescue.scaled_back,
             0u)
       << "the start was inverted";
+}
+
+TEST(PaperTransfer, IsUntangledByOneSolveWhoseCostDoesNotKnowTheFirstCell) {
+  for (int order : {2, 3}) {
+    std::size_t at_1e_2 = 0;
+    for (double first_cell : {1e-2, 1e-4, 1e-6}) {
+      const CurveResult result = run_from_tangled(first_cell, order, Smoothing::automatic);
+      const auto& rescue = result.report.rescue;
+      EXPECT_EQ(result.report.validity.certified, result.linear->cell_count()) << first_cell;
+      EXPECT_EQ(rescue.patches + rescue.orders_lowered + rescue.scaled_back, 0u) << first_cell;
+      EXPECT_GT(rescue.elastic_products, 0u);
+      EXPECT_LE(rescue.elastic_products, 300u);
+      EXPECT_GT(result.report.validity.min_jacobian_ratio, 0.3) << first_cell;
+      if (first_cell == 1e-2) at_1e_2 = rescue.elastic_products;
+      EXPECT_LT(static_cast<double>(rescue.elastic_products), 1.5 * static_cast<double>(at_1e_2));
+    }
+  }
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../elevate/layer_meshes.hpp"
+#include "layer_meshes.hpp"
 
 namespace camber {
 namespace {

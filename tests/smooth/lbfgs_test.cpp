@@ -41,7 +41,7 @@ TEST(Lbfgs, FindsTheMinimumOfAParabolaInOneStepWithItsHessian) {
     return 2.0 * (y[0] - 3.0) * (y[0] - 3.0);
   };
 
-  const int iterations = minimise_lbfgs(f, x, VecX::Constant(1, 0.25), {});
+  const int iterations = minimise_lbfgs(f, x, DiagonalHessian(VecX::Constant(1, 0.25)), {});
 
   EXPECT_EQ(x[0], 3.0);
   EXPECT_EQ(iterations, 1);
@@ -62,7 +62,7 @@ TEST(Lbfgs, SolvesAConvexQuadratic) {
         g = A * y - b;
         return 0.5 * y.dot(A * y) - b.dot(y);
       },
-      x, VecX::Ones(20), options);
+      x, DiagonalHessian(VecX::Ones(20)), options);
 
   EXPECT_LT((x - solution).norm(), 1e-5 * solution.norm());
   EXPECT_LT(iterations, 100);
@@ -72,7 +72,7 @@ TEST(Lbfgs, FollowsTheValleyOfRosenbrock) {
   VecX x(2);
   x << -1.2, 1.0;
 
-  const int iterations = minimise_lbfgs(rosenbrock, x, VecX::Ones(2), {});
+  const int iterations = minimise_lbfgs(rosenbrock, x, DiagonalHessian(VecX::Ones(2)), {});
 
   EXPECT_LT((x - VecX::Ones(2)).norm(), 1e-6);
   EXPECT_LT(iterations, 60);
@@ -95,7 +95,7 @@ TEST(Lbfgs, DoesNotDependOnTheUnitsThatItsDiagonalKnows) {
           g = unit.cwiseProduct(A * z - b);
           return 0.5 * z.dot(A * z) - b.dot(z);
         },
-        x, unit.array().square().inverse().matrix(), options);
+        x, DiagonalHessian(unit.array().square().inverse().matrix()), options);
     return VecX(unit.cwiseProduct(x));
   };
 
@@ -115,7 +115,7 @@ TEST(Lbfgs, StaysWhereTheObjectiveIsDefined) {
           g[0] = 1.0 - 1.0 / y[0];
           return y[0] - std::log(y[0]);
         },
-        x, VecX::Constant(1, 100.0), {});
+        x, DiagonalHessian(VecX::Constant(1, 100.0)), {});
     EXPECT_NEAR(x[0], 1.0, 1e-6) << "from " << start;
   }
 }
@@ -124,12 +124,12 @@ TEST(Lbfgs, LeavesAStartAloneThatIsUndefinedOrStationary) {
   VecX x = VecX::Constant(2, 7.0);
   EXPECT_EQ(
       minimise_lbfgs([](const VecX&, VecX&) { return std::numeric_limits<double>::infinity(); }, x,
-                     VecX::Ones(2), {}),
+                     DiagonalHessian(VecX::Ones(2)), {}),
       0);
   EXPECT_EQ(x, VecX::Constant(2, 7.0));
 
   VecX minimum = VecX::Ones(2);
-  EXPECT_EQ(minimise_lbfgs(rosenbrock, minimum, VecX::Ones(2), {}), 0);
+  EXPECT_EQ(minimise_lbfgs(rosenbrock, minimum, DiagonalHessian(VecX::Ones(2)), {}), 0);
   EXPECT_EQ(minimum, VecX::Ones(2));
 }
 
@@ -138,12 +138,12 @@ TEST(Lbfgs, StopsWhenToldAndAfterTheIterationsAllowed) {
   options.max_iterations = 5;
   VecX x(2);
   x << -1.2, 1.0;
-  EXPECT_EQ(minimise_lbfgs(rosenbrock, x, VecX::Ones(2), options), 5);
+  EXPECT_EQ(minimise_lbfgs(rosenbrock, x, DiagonalHessian(VecX::Ones(2)), options), 5);
 
   x << -1.2, 1.0;
   options.max_iterations = 100;
   VecX g;
-  minimise_lbfgs(rosenbrock, x, VecX::Ones(2), options,
+  minimise_lbfgs(rosenbrock, x, DiagonalHessian(VecX::Ones(2)), options,
                  [&](const VecX& y) { return rosenbrock(y, g) < 1.0; });
   EXPECT_LT(rosenbrock(x, g), 1.0);
   EXPECT_GT(rosenbrock(x, g), 1e-6);
@@ -159,7 +159,7 @@ TEST(Lbfgs, NeverStepsFartherThanTheLongestStep) {
         g = y;
         return 0.5 * y.squaredNorm();
       },
-      x, VecX::Ones(1), options,
+      x, DiagonalHessian(VecX::Ones(1)), options,
       [&](const VecX& y) {
         EXPECT_LE((y - last).norm(), 0.1 * (1.0 + 1e-12));
         last = y;

@@ -1,5 +1,6 @@
 #include <camber/associate/cad_scale.hpp>
 #include <camber/base/error.hpp>
+#include <camber/base/sorted_set.hpp>
 #include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/pinched.hpp>
 #include <camber/elevate/rescue.hpp>
@@ -9,11 +10,14 @@
 #include <camber/pipeline/summary.hpp>
 #include <camber/pipeline/unpinch.hpp>
 #include <camber/pipeline/wall_repair.hpp>
+#include <camber/smooth/elastic.hpp>
+#include <camber/smooth/patch.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -87,6 +91,61 @@ void refuse_bad_quality(double quality) {
                     "give a value from 0 to 1; 0.95 is the paper's");
 }
 
+/// Cells of the columns that stand on the wall itself, sorted.
+std::vector<Index> first_cells(const Topology& topology, const Wall& wall, const Columns& columns) {
+  std::vector<Index> first;
+  for (std::size_t slot = 0; slot < wall.face_count(); ++slot) {
+    for (Index c : topology.face2cell[at(wall.faces[slot])]) {
+      if (c != k_none && columns.cell_face_slot[at(c)] == static_cast<Index>(slot)) {
+        first.push_back(c);
+      }
+    }
+  }
+  make_sorted_set(first);
+  return first;
+}
+
+/// Share of the curved cells from which on the start counts as tangled as a whole; below it, and
+/// with layers carried, it is a matter for single patches.
+constexpr double k_tangled_share = 0.25;
+
+bool is_tangled(const CurveOptions& options, std::size_t bad, std::size_t curved) {
+  if (options.smoothing != Smoothing::automatic || bad == 0) return false;
+  return options.propagation == Propagation::cell ||
+         static_cast<double>(bad) > k_tangled_share * static_cast<double>(curved);
+}
+
+/// What replaced a tangled start.
+enum class Start { as_it_was, elastic, carried };
+
+/// A carried state may have this many times the uncertified cells of an elastic one and still be
+/// the better start: what is left of it is local, on folded wall faces.
+constexpr std::size_t k_carried_advantage = 10;
+
+/// A tangled start is worth nothing beyond the wall's displacement: spreads that by one linear
+/// solve, and where cells are left uncertified carries it through the layers instead.
+Start untangle_all(CurveResult& result, const LayerField& layers,
+                   const std::vector<Index>& curved_cells, std::vector<Index>& uncertified) {
+  Start best = Start::as_it_was;
+  const auto offer = [&](Start start, CurvedMesh state, std::size_t advantage) {
+    std::vector<Index> still = uncertified_cells(state, curved_cells);
+    if (still.size() >= advantage * uncertified.size()) return;
+    *result.curved = std::move(state);
+    uncertified = std::move(still);
+    best = start;
+  };
+  CurvedMesh relaxed = *result.curved;
+  const ElasticResult solve = relax_elastic(relaxed, curved_cells, free_nodes(relaxed));
+  result.report.rescue.elastic_products = static_cast<std::size_t>(solve.products);
+  offer(Start::elastic, std::move(relaxed), 1);
+  if (!uncertified.empty()) {
+    CurvedMesh carried = *result.curved;
+    apply_field(layers, carried);
+    offer(Start::carried, std::move(carried), k_carried_advantage);
+  }
+  return best;
+}
+
 }  // namespace
 
 CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
@@ -130,33 +189,53 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   LayerFieldOptions layer = options.layer;
   if (options.propagation == Propagation::cell) layer.decay = Decay::cell;
   const LayerField field(mesh, topology, result.association, wall, placement, columns, layer);
+  // Where the start is only to be untangled, orders must reach as far as its displacement will.
+  std::optional<LayerField> carried;
+  if (layer.decay == Decay::cell && options.smoothing == Smoothing::automatic) {
+    carried.emplace(mesh, topology, result.association, wall, placement, columns, options.layer);
+  }
   const OrderRequests requests =
-      request_orders(mesh, topology, wall, placement, field, options.orders);
+      request_orders(mesh, topology, wall, placement, carried ? *carried : field, options.orders);
   OrderField orders = settle_orders(mesh, topology, requests, options.orders);
 
   watch.next("propagate");
   progress("propagate", 0.6);
   result.curved = std::make_unique<CurvedMesh>(mesh, topology, std::move(orders));
   apply_field(field, *result.curved);
-
-  watch.next("certify");
-  progress("certify", 0.7);
   std::vector<Index> curved_cells;
   for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
     if (result.curved->cell_order(c) > 1) curved_cells.push_back(c);
   }
-  const std::vector<Index> uncertified = uncertified_cells(*result.curved, curved_cells);
+  bool is_elastic = options.propagation == Propagation::elastic;
+  if (is_elastic) {
+    relax_elastic(*result.curved, curved_cells, free_nodes(*result.curved));
+  }
+
+  watch.next("certify");
+  progress("certify", 0.7);
+  std::vector<Index> uncertified = uncertified_cells(*result.curved, curved_cells);
+  if (is_tangled(options, uncertified.size(), curved_cells.size())) {
+    watch.next("smooth");
+    const Start start = untangle_all(result, carried ? *carried : field, curved_cells, uncertified);
+    is_elastic = start == Start::elastic || (is_elastic && start == Start::as_it_was);
+  }
 
   watch.next("rescue");
   progress("rescue", 0.8);
-  const LadderResult ladder = climb(*result.curved, result.association, geometry, placement, field,
+  const Carry carry = [&](CurvedMesh& curved, const std::vector<Index>& cells) {
+    apply_field(carried ? *carried : field, curved, cells);
+    if (!is_elastic) return cells;
+    relax_elastic(curved, curved_cells, free_nodes(curved));
+    return curved_cells;
+  };
+  const LadderResult ladder = climb(*result.curved, result.association, geometry, placement, carry,
                                     wall, columns, pinched, uncertified);
 
   watch.next("smooth");
   progress("smooth", 0.85);
   SmoothOutcome smoothed =
       smooth_stage(*result.curved, geometry, {result.association, wall, placement, columns, layer},
-                   options, progress);
+                   first_cells(topology, wall, columns), options, progress);
   result.report.smooth = std::move(smoothed.rows);
   result.report.rescue.put_back = smoothed.put_back;
 

@@ -110,6 +110,7 @@ Json rescue(const Report& report) {
           {"scaled_back", report.rescue.scaled_back},
           {"put_back", report.rescue.put_back},
           {"pinched", report.rescue.pinched},
+          {"elastic_products", report.rescue.elastic_products},
           {"edges_removed", report.rescue.edges_removed},
           {"pinched_split", report.rescue.pinched_split},
           {"places", places}};

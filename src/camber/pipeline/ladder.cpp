@@ -1,5 +1,4 @@
 #include <camber/base/sorted_set.hpp>
-#include <camber/elevate/apply_field.hpp>
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/wall_repair.hpp>
 
@@ -88,7 +87,7 @@ std::vector<Index> cells_over(const LinearMesh& mesh, const Topology& topology, 
 }  // namespace
 
 LadderResult climb(CurvedMesh& curved, const Association& association, const GeometryModel& model,
-                   Placement& placement, const LayerField& field, const Wall& wall,
+                   Placement& placement, const Carry& carry, const Wall& wall,
                    const Columns& columns, const std::vector<Index>& pinched,
                    const std::vector<Index>& uncertified) {
   LadderResult result;
@@ -128,8 +127,7 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     make_sorted_set(changed);
     if (changed.empty()) break;
     for (const auto& [slot, cap] : caps) result.lowered_faces.push_back(slot);
-    std::vector<Index> again = cells_over(mesh, topology, wall, columns, changed);
-    apply_field(field, curved, again);
+    std::vector<Index> again = carry(curved, cells_over(mesh, topology, wall, columns, changed));
     again.insert(again.end(), bad.begin(), bad.end());
     again.insert(again.end(), to_lower.begin(), to_lower.end());
     for (Index c : std::vector<Index>(again)) {

@@ -1,10 +1,11 @@
 #pragma once
 // From a carried start to a mesh in which every cell is certified.
 #include <camber/elevate/columns.hpp>
-#include <camber/elevate/layer_field.hpp>
+#include <camber/elevate/placement.hpp>
 #include <camber/elevate/rescue.hpp>
 #include <camber/smooth/patch.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace camber {
@@ -17,6 +18,11 @@ struct LadderResult {
   std::vector<Index> pinched;  // cells that no curved wall can leave valid (elevate/pinched.hpp)
 };
 
+/// Carries the wall's displacement, as Placement has it now, to the given cells again; returns all
+/// cells that it may have changed, sorted.
+using Carry =
+    std::function<std::vector<Index>(CurvedMesh& curved, const std::vector<Index>& cells)>;
+
 /// Climbs only as far as needed, for the cells that are not certified:
 /// (Pinched cells start at 3.)
 ///   1. volume nodes of the group and its rings are moved (smooth/patch.hpp); the wall stays as it
@@ -26,7 +32,7 @@ struct LadderResult {
 ///   again
 ///   4. displacements are scaled back until certified (elevate/rescue.hpp); this always ends
 LadderResult climb(CurvedMesh& curved, const Association& association, const GeometryModel& model,
-                   Placement& placement, const LayerField& field, const Wall& wall,
+                   Placement& placement, const Carry& carry, const Wall& wall,
                    const Columns& columns, const std::vector<Index>& pinched,
                    const std::vector<Index>& uncertified);
 

@@ -10,8 +10,9 @@ namespace camber {
 
 /// How the wall's displacement is carried into the volume.
 enum class Propagation {
-  layer,  // through the whole boundary layer (default)
-  cell    // the paper's transfer (2.2.4): linearly decaying inside the elevated cells only
+  layer,    // through the whole boundary layer (default)
+  elastic,  // by a linear solve over all curved cells (smooth/elastic.hpp)
+  cell      // the paper's transfer (2.2.4): linearly decaying inside the elevated cells only
 };
 
 /// What is done for quality once every cell is certified.
@@ -28,6 +29,7 @@ struct CurveOptions {
   Propagation propagation = Propagation::layer;
   LayerFieldOptions layer;
   Smoothing smoothing = Smoothing::automatic;
+  double polish_below = 0.6;   // cells with a lower cost C are polished by Smoothing::automatic
   double quality = 0.95;       // --quality: cost C that every cell should have (paper's threshold)
   double scale = 0.0;          // --unit: mesh length per CAD length (read as mm); 0: found
   TagOptions association;      // --patch

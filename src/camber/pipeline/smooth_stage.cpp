@@ -5,14 +5,14 @@
 #include <camber/metric/element_quality.hpp>
 #include <camber/pipeline/marching_boundary.hpp>
 #include <camber/pipeline/smooth_stage.hpp>
+#include <camber/smooth/patch.hpp>
+#include <camber/smooth/polish.hpp>
 
 #include <algorithm>
 #include <numeric>
 
 namespace camber {
 namespace {
-
-constexpr std::size_t k_grain = 512;
 
 /// Gives the edges, faces and insides of cells the shapes of another state of the mesh.
 class Restorer {
@@ -54,21 +54,6 @@ class Restorer {
   CurvedMesh& curved_;
   const CurvedMesh& before_;
 };
-
-/// Lowest cost C, eq. (2), of every cell at the Gauss points of its own order.
-std::vector<double> cell_costs(const CurvedMesh& curved, const std::vector<Index>& cells) {
-  std::vector<double> costs(cells.size(), 1.0);
-  parallel_for(cells.size(), k_grain, [&](std::size_t begin, std::size_t end) {
-    Points nodes;
-    for (std::size_t i = begin; i < end; ++i) {
-      const int p = curved.cell_order(cells[i]);
-      if (p < 2) continue;
-      curved.gather(cells[i], p, nodes);
-      costs[i] = element_cost(curved.linear().cell_shape[at(cells[i])], p, nodes).minimum;
-    }
-  });
-  return costs;
-}
 
 /// Puts back cells that lost their certificate or are worse than any was before; all if the mean
 /// cost fell. Ends: a pass restores something that was not restored before, or tests nothing again.
@@ -120,15 +105,29 @@ SmoothOutcome march(CurvedMesh& curved, const GeometryModel& geometry, const Fie
   return {result.rows, keep_the_better(curved, raise_orders(start, curved.orders().cell))};
 }
 
+SmoothOutcome polish_low_costs(CurvedMesh& curved, const std::vector<Index>& first_cells,
+                               const CurveOptions& options, const Progress& progress) {
+  PolishOptions polishing;
+  polishing.cost_target = options.polish_below;
+  std::vector<double> costs = cell_costs(curved);
+  const PolishResult result =
+      polish(curved, free_nodes(curved, first_cells), costs, polishing, [&](const SmoothRow& row) {
+        progress("smooth", IterationState{row.iteration, row.active_nodes, row.negative_elements,
+                                          row.worst_cost});
+      });
+  return {result.rows, 0};
+}
+
 }  // namespace
 
 SmoothOutcome smooth_stage(CurvedMesh& curved, const GeometryModel& geometry,
-                           const FieldSource& field, const CurveOptions& options,
-                           const Progress& progress) {
+                           const FieldSource& field, const std::vector<Index>& first_cells,
+                           const CurveOptions& options, const Progress& progress) {
   switch (options.smoothing) {
     case Smoothing::marching:
       return march(curved, geometry, field, options, progress);
     case Smoothing::automatic:
+      return polish_low_costs(curved, first_cells, options, progress);
     case Smoothing::none:
       break;
   }

@@ -21,9 +21,11 @@ struct SmoothOutcome {
 /// insides of cells that lost their certificate, or fell below the lowest cost from before, get
 /// their shape from before, until none is left; all do if the mean cost would be lower.
 /// Deterministic for any number of threads.
+/// @param first_cells  of the layers: the default smoothing leaves their nodes alone, so that the
+///                     near-wall spacing stays
 /// @throws Cancelled through progress
 SmoothOutcome smooth_stage(CurvedMesh& curved, const GeometryModel& geometry,
-                           const FieldSource& field, const CurveOptions& options,
-                           const Progress& progress);
+                           const FieldSource& field, const std::vector<Index>& first_cells,
+                           const CurveOptions& options, const Progress& progress);
 
 }  // namespace camber

@@ -8,7 +8,7 @@
 namespace camber {
 
 struct ElasticOptions {
-  double tolerance = 1e-8;  // of the residual, in the norm of the approximate inverse
+  double tolerance = 1e-7;  // of the residual, in the norm of the approximate inverse
   int max_products = 400;
 };
 struct ElasticResult {

@@ -21,18 +21,20 @@ struct Pair {
 };
 
 VecX descent_direction(const VecX& gradient, const std::deque<Pair>& pairs,
-                       const VecX& inverse_diagonal) {
-  VecX q = gradient;
+                       const InitialHessian& hessian) {
+  VecX q = gradient, solved;
   std::vector<double> alpha(pairs.size());
   for (std::size_t i = pairs.size(); i-- > 0;) {
     alpha[i] = pairs[i].inverse_product * pairs[i].step.dot(q);
     q -= alpha[i] * pairs[i].change;
   }
-  q = inverse_diagonal.cwiseProduct(q);
+  hessian.solve(q, solved);
+  q = solved;
   if (!pairs.empty()) {
     // Scaled so that the latest pair is reproduced along its own direction.
     const Pair& last = pairs.back();
-    const double curvature = last.change.dot(inverse_diagonal.cwiseProduct(last.change));
+    hessian.solve(last.change, solved);
+    const double curvature = last.change.dot(solved);
     q *= 1.0 / (last.inverse_product * curvature);
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -77,13 +79,15 @@ bool search_line(const Objective& f, const VecX& direction, double slope, double
 }  // namespace
 
 int minimise_lbfgs(const std::function<double(const VecX&, VecX&)>& f, VecX& x,
-                   const VecX& inverse_diagonal, const LbfgsOptions& options,
+                   const InitialHessian& hessian, const LbfgsOptions& options,
                    const std::function<bool(const VecX&)>& is_done) {
   Point here{x, VecX(x.size()), 0.0};
   here.value = f(here.x, here.gradient);
   if (!std::isfinite(here.value)) return 0;
+  VecX solved;
   const auto norm = [&](const VecX& g) {
-    return std::sqrt(g.dot(inverse_diagonal.cwiseProduct(g)));
+    hessian.solve(g, solved);
+    return std::sqrt(g.dot(solved));
   };
   const double first_norm = norm(here.gradient);
   std::deque<Pair> pairs;
@@ -91,15 +95,16 @@ int minimise_lbfgs(const std::function<double(const VecX&, VecX&)>& f, VecX& x,
   for (; iteration < options.max_iterations; ++iteration) {
     if (is_done && is_done(here.x)) break;
     if (!(norm(here.gradient) > options.gradient_tolerance * first_norm)) break;
-    VecX direction = descent_direction(here.gradient, pairs, inverse_diagonal);
+    VecX direction = descent_direction(here.gradient, pairs, hessian);
     double slope = direction.dot(here.gradient);
     if (!(slope < 0.0)) {
       pairs.clear();
-      direction = -inverse_diagonal.cwiseProduct(here.gradient);
+      hessian.solve(here.gradient, solved);
+      direction = -solved;
       slope = direction.dot(here.gradient);
     }
     // The first steps of an ill-scaled energy must not leave the range where it says anything.
-    const double reach = std::sqrt((direction.array().square() / inverse_diagonal.array()).sum());
+    const double reach = std::sqrt(hessian.squared_norm(direction));
     const Point before = here;
     if (!search_line(f, direction, slope, options.longest_step / reach, here)) break;
     Pair pair{here.x - before.x, here.gradient - before.gradient, 0.0};

@@ -54,7 +54,7 @@ SurfaceFit fit_surface(SurfacePatch& patch, const OnSurface& on_surface,
     gradient += 2.0 * k_slide_weight * slid;
     return e + k_slide_weight * y.dot(slid);
   };
-  result.iterations = minimise_lbfgs(value, t, inverse_diagonal, options);
+  result.iterations = minimise_lbfgs(value, t, DiagonalHessian(inverse_diagonal), options);
   const Points& x = sliding.place(t);
   const double after = distance.root_mean_square(x);
   if (after < result.before && shape.least_tau(x) >= k_least_share * std::min(least, 1.0)) {

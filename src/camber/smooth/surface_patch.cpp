@@ -41,7 +41,7 @@ bool smooth_surface(SurfacePatch& patch, const OnSurface& on_surface) {
       sliding.pull_back(slope, gradient);
       return e;
     };
-    minimise_lbfgs(value, t, inverse_diagonal, options);
+    minimise_lbfgs(value, t, DiagonalHessian(inverse_diagonal), options);
     least = energy.least_tau(sliding.place(t));
     if (least > k_clear) {
       sliding.store(t, patch);

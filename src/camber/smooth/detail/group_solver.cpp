@@ -26,8 +26,11 @@ GroupSolver::GroupSolver(std::vector<std::vector<Index>> groups, const std::vect
   });
 }
 
-GroupSolver::GroupSolver(CellEnergy& energy)
-    : GroupSolver(energy.thin_groups(), energy.diagonal_blocks(energy.thin_groups())) {}
+GroupSolver GroupSolver::across_thin_cells(CellEnergy& energy) {
+  std::vector<std::vector<Index>> groups = energy.thin_groups();
+  const std::vector<MatX> blocks = energy.diagonal_blocks(groups);
+  return {std::move(groups), blocks};
+}
 
 void GroupSolver::solve(const VecX& r, VecX& z) const {
   z.resize(r.size());
@@ -48,6 +51,20 @@ void GroupSolver::solve(const VecX& r, VecX& z) const {
       }
     }
   });
+}
+
+double GroupSolver::squared_norm(const VecX& v) const {
+  double sum = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> own;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::vector<Index>& group = groups_[g];
+    own.resize(static_cast<Eigen::Index>(group.size()), 3);
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      own.row(static_cast<Eigen::Index>(k)) = v.segment<3>(3 * group[k]).transpose();
+    }
+    sum += (factors_[g].triangularView<Eigen::Lower>().transpose() * own).squaredNorm();
+  }
+  return sum;
 }
 
 std::size_t GroupSolver::largest_group() const {
