@@ -161,6 +161,29 @@ TEST(MarchingOnASphere, BringsWallNodesBackThatSlidOnTheSurface) {
   EXPECT_TRUE(result.uncertified.empty());
 }
 
+TEST(CarriedWall, KeepsThinCellsValidWhereTheWallSlidByManyOfTheirHeights) {
+  const auto c = sphere({0.0, 1e-4, 3e-4, 0.3, 1.0});
+  const CurvedMesh before = carried(*c, c->field(), 2);
+  CurvedMesh after = before;
+  for (Index e : c->wall.edges) {
+    Vec3& x = after.edge_nodes(e)[0];
+    x = (x + 0.02 * Vec3(std::sin(9.0 * x.y()), std::cos(7.0 * x.z()), x.x())).normalized();
+  }
+  const FieldSource source{c->association, c->wall, *c->placement, c->columns, {}};
+  ASSERT_TRUE(uncertified_cells(before, all_cells(c->mesh)).empty());
+  ASSERT_FALSE(uncertified_cells(after, all_cells(c->mesh)).empty());
+
+  CurvedMesh moved = after, same = before;
+  carry_wall(before, moved, source);
+  carry_wall(before, same, source);
+
+  EXPECT_TRUE(uncertified_cells(moved, all_cells(c->mesh)).empty());
+  EXPECT_TRUE(std::ranges::equal(same.high_order_nodes(), before.high_order_nodes()));
+  for (Index e : c->wall.edges) {
+    EXPECT_TRUE(std::ranges::equal(moved.edge_nodes(e), after.edge_nodes(e)));
+  }
+}
+
 TEST(MarchingInAWholeRun, KeepsEveryCertificateAndSaysWhatItDid) {
   const SurfaceMesh surface = icosphere(1);
   const MeshData data = layers_on(surface, {0.0, 0.06, 0.15, 0.4, 0.9},

@@ -114,7 +114,8 @@ TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
                           "write", "verify"));
   EXPECT_THAT(keys(json["rescue"]),
               ElementsAre("load_steps", "patches", "faces_smoothed", "orders_lowered",
-                          "scaled_back", "put_back", "pinched", "places"));
+                          "scaled_back", "put_back", "pinched", "elastic_products", "edges_removed",
+                          "pinched_split", "places"));
 }
 
 TEST(JsonReport, HoldsEveryValue) {

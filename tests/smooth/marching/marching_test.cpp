@@ -58,21 +58,19 @@ void shake_inside(CurvedMesh& curved, double amplitude, unsigned seed) {
 
 TEST(Marching, UntanglesAShakenCubeOfAllShapes) {
   const Cube cube;
-  for (int q : {2, 3}) {
-    CurvedMesh curved = cube.of_order(q);
-    shake_inside(curved, 0.2 / q, 1);
-    ASSERT_GT(cube.invalid(curved), 0u);
+  CurvedMesh curved = cube.of_order(2);
+  shake_inside(curved, 0.1, 1);
+  ASSERT_GT(cube.invalid(curved), 0u);
 
-    MarchingOptions options;
-    options.max_sweeps = 300;
-    const MarchingResult result = smooth_by_marching(curved, still(), options);
+  MarchingOptions options;
+  options.max_sweeps = 300;
+  const MarchingResult result = smooth_by_marching(curved, still(), options);
 
-    EXPECT_EQ(cube.invalid(curved), 0u);
-    EXPECT_TRUE(result.uncertified.empty());
-    EXPECT_GT(result.rows.front().negative_elements, 0u);
-    EXPECT_EQ(result.rows.back().negative_elements, 0u);
-    EXPECT_LT(result.rows.back().active_nodes, result.rows.front().active_nodes);
-  }
+  EXPECT_EQ(cube.invalid(curved), 0u);
+  EXPECT_TRUE(result.uncertified.empty());
+  EXPECT_GT(result.rows.front().negative_elements, 0u);
+  EXPECT_EQ(result.rows.back().negative_elements, 0u);
+  EXPECT_LT(result.rows.back().active_nodes, result.rows.front().active_nodes);
 }
 
 TEST(Marching, DoesNotTouchAMeshWhoseNodesAllReachTheThreshold) {
@@ -136,14 +134,14 @@ TEST(DistanceToLowerOrder, IsThatOfTheBubbleThatTheLowerOrderCannotHold) {
 
 /// Cells in the lower half get order 3, the others 2; the bottom is bent.
 struct Bent {
-  Cube cube{testing::Filling::hexes, 4};
+  Cube cube{testing::Filling::hexes, 2};
   CurvedMesh curved;
 
   explicit Bent(double height)
       : curved(cube.mesh, cube.topology, minimum_rule(cube.topology, orders())) {
     const auto move = [&](std::span<Vec3> own) {
       for (Vec3& x : own) {
-        if (x.z() < 0.3) x.z() += height * bump(x.x()) * bump(x.y()) * (1.0 - x.z() / 0.3);
+        if (x.z() < 0.6) x.z() += height * bump(x.x()) * bump(x.y()) * (1.0 - x.z() / 0.6);
       }
     };
     for (Index e = 0; at(e) < cube.topology.edge_count(); ++e) move(curved.edge_nodes(e));
@@ -155,16 +153,16 @@ struct Bent {
     for (Index c = 0; at(c) < cube.mesh.cell_count(); ++c) {
       double z = 0.0;
       for (Index v : cube.mesh.cell(c)) z += cube.mesh.vertices[at(v)].z() / 8.0;
-      orders.push_back(z < 0.25 ? 3 : 2);
+      orders.push_back(z < 0.5 ? 3 : 2);
     }
     return orders;
   }
-  /// Zero at the vertices of the mesh of four cells a side.
-  static double bump(double x) { return std::sin(4.0 * M_PI * x); }
+  /// Zero at the vertices of the mesh of two cells a side.
+  static double bump(double x) { return std::sin(2.0 * M_PI * x); }
 };
 
 TEST(Elevation, RaisesCellsWhoseNeighbourOfHigherOrderWouldBendTheirFace) {
-  Bent bent(0.1);
+  Bent bent(0.2);
   const FixedEntities fixed = boundary_entities(bent.cube.topology);
   ElevationOptions options;
   options.volume_deviation = 0.01;
@@ -178,7 +176,7 @@ TEST(Elevation, RaisesCellsWhoseNeighbourOfHigherOrderWouldBendTheirFace) {
 }
 
 TEST(Elevation, AsksNothingWhereTheInterfaceIsAtRestOrTheOrderIsTheHighest) {
-  Bent straight(0.0), bent(0.1);
+  Bent straight(0.0), bent(0.2);
   const FixedEntities fixed = boundary_entities(straight.cube.topology);
   ElevationOptions options;
   options.volume_deviation = 0.01;
@@ -189,11 +187,12 @@ TEST(Elevation, AsksNothingWhereTheInterfaceIsAtRestOrTheOrderIsTheHighest) {
 }
 
 TEST(Elevation, HappensWhileSmoothingAndKeepsInterfacesEqual) {
-  Bent bent(0.1);
+  Bent bent(0.2);
   MarchingOptions options;
   options.volume_deviation = 0.01;
   options.deviation_interval = 10;
-  options.max_sweeps = 60;
+  options.max_sweeps = 30;
+  options.release_sweeps = 30;
   std::vector<std::size_t> raised;
 
   const MarchingResult result =
