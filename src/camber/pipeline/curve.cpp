@@ -221,7 +221,7 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   progress("smooth", 0.85);
   SmoothOutcome smoothed =
       smooth_stage(*result.curved, geometry, {result.association, wall, placement, columns, layer},
-                   first_cells(topology, wall, columns), options, progress);
+                   options, progress);
   result.report.smooth = std::move(smoothed.rows);
   result.report.rescue.put_back = smoothed.put_back;
 
