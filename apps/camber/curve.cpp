@@ -26,6 +26,7 @@ struct CurveFlags {
   std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
                     smoothing = "auto";
   std::string link = "auto";
+  bool is_quality_given = false;
   std::vector<std::string> geometry, outputs, patches;
 };
 
@@ -56,6 +57,7 @@ CurveOptions options_of(const CurveFlags& flags) {
   options.propagation = flags.propagation == "cell"      ? Propagation::cell
                         : flags.propagation == "elastic" ? Propagation::elastic
                                                          : Propagation::layer;
+  if (flags.is_quality_given) options.polish_below = options.quality;
   if (flags.smoothing != "auto") {
     options.smoothing = flags.smoothing == "none" ? Smoothing::none : Smoothing::marching;
   }
@@ -157,10 +159,12 @@ int run(const CurveFlags& flags) {
 }
 
 void add_smoothing_flags(CLI::App& verb, CurveFlags& flags) {
-  verb.add_option(
-          "--smooth", flags.smoothing,
-          "marching: the paper's smoother, surface then volume, with elevation; none: leave "
-          "the certified mesh as it is; auto: as none in this release")
+  verb.add_option("--smooth", flags.smoothing,
+                  "auto: polish patches of cells with a cost below 0.6 (or --quality, if given) "
+                  "and replace "
+                  "starts that are tangled as a whole; marching: the paper's smoother, surface "
+                  "then volume, "
+                  "with elevation; none: leave the certified mesh as it is")
       ->check(CLI::IsMember({"auto", "marching", "none"}))
       ->type_name("auto|marching|none")
       ->capture_default_str();
@@ -169,6 +173,7 @@ void add_smoothing_flags(CLI::App& verb, CurveFlags& flags) {
                   "in the report [-]")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("COST")
+      ->each([&flags](const std::string&) { flags.is_quality_given = true; })
       ->capture_default_str();
 }
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "layer_meshes.hpp"
+#include "bodies.hpp"
 
 namespace camber {
 namespace {
@@ -183,65 +183,10 @@ TEST(LayerField, KeepsStillPlanesPlane) {
 }
 
 TEST(LayerField, KeepsBothWallsOfAConcaveCorner) {
-  // Floor z = f(x, y) and wall x = g(y, z) over the same unit square, both 0 along their common
-  // edge.
-  const auto rise = [](double along, double away) {
-    return away <= 0.0 || away >= 1.0 ? 0.0
-                                      : 0.12 * std::pow(std::sin(M_PI * away), 2) * (0.5 + along);
-  };
-  const auto floor_height = [&](double x, double y) { return rise(y, x); };
-  const auto wall_height = [&](double y, double z) { return rise(y, z); };
-  const BsplineSurface floor = bump(floor_height, 9, Vec3::UnitX(), Vec3::UnitY());
-  const BsplineSurface wall = bump(wall_height, 9, Vec3::UnitY(), Vec3::UnitZ());
   const std::vector<double> s{0.0, 1e-3, 0.15, 0.35, 0.6, 0.8, 1.0};
   constexpr Index n = 7, m = 4;  // lattice points across and along
-  MeshData data;
-  data.source = "corner";
-  const auto vertex = [&](Index i, Index j, Index k) { return i + n * (j + m * k); };
-  for (Index k = 0; k < n; ++k) {
-    for (Index j = 0; j < m; ++j) {
-      for (Index i = 0; i < n; ++i) {
-        const double x = s[at(i)], z = s[at(k)], y = static_cast<double>(j) / (m - 1);
-        data.points.emplace_back(x + (1.0 - x) * wall.jet({y, z}).s.x(), y,
-                                 z + (1.0 - z) * floor.jet({x, y}).s.z());
-      }
-    }
-  }
-  ElementBlock hexes{Shape::hexahedron, 1, 1, {}, {}};
-  std::array<ElementBlock, 6> sides;
-  constexpr std::array<int, 6> entity{1, 2, 11, 12, 13, 14};
-  for (std::size_t side = 0; side < 6; ++side) {
-    sides[side] = {Shape::quadrilateral, 1, entity[side], {}, {}};
-  }
-  const auto quad = [&](std::size_t side, std::array<Index, 4> v) {
-    std::swap(v[2], v[3]);  // lattice order
-    sides[side].nodes.insert(sides[side].nodes.end(), v.begin(), v.end());
-  };
-  for (Index k = 0; k + 1 < n; ++k) {
-    for (Index j = 0; j + 1 < m; ++j) {
-      for (Index i = 0; i + 1 < n; ++i) {
-        std::array<Index, 8> v{};
-        for (std::size_t b = 0; b < 8; ++b) {
-          v[b] = vertex(i + static_cast<Index>(b & 1), j + static_cast<Index>((b >> 1) & 1),
-                        k + static_cast<Index>(b >> 2));
-        }
-        hexes.nodes.insert(hexes.nodes.end(), v.begin(), v.end());
-        if (k == 0) quad(0, {v[0], v[1], v[3], v[2]});
-        if (i == 0) quad(1, {v[0], v[2], v[6], v[4]});
-        if (k + 2 == n) quad(2, {v[4], v[5], v[7], v[6]});
-        if (i + 2 == n) quad(3, {v[1], v[3], v[7], v[5]});
-        if (j == 0) quad(4, {v[0], v[1], v[5], v[4]});
-        if (j + 2 == m) quad(5, {v[2], v[3], v[7], v[6]});
-      }
-    }
-  }
-  data.blocks.push_back(hexes);
-  data.blocks.insert(data.blocks.end(), sides.begin(), sides.end());
-  std::vector<std::unique_ptr<GeometryModel>> parts;
-  parts.push_back(make_bspline_patch(bump(floor_height, 9, Vec3::UnitX(), Vec3::UnitY())));
-  parts.push_back(make_bspline_patch(bump(wall_height, 9, Vec3::UnitY(), Vec3::UnitZ())));
-
-  const auto c = make_case(data, joined(std::move(parts)));
+  const auto vertex = [](Index i, Index j, Index k) { return i + n * (j + m * k); };
+  const auto c = make_case(concave_corner(s, m), concave_corner_model());
   const LayerField field = c->field();
   const CurvedMesh curved = carried(*c, field, 4);
 

@@ -72,6 +72,7 @@ Report filled() {
   report.rescue.pinched = 2;
   report.rescue.places = {{5, Shape::tetrahedron, Vec3(0, 0, 1), 0.5, "scaled back"}};
   report.quality.target = 0.9;
+  report.rescue.put_back = 2;
   report.smooth = {{"surface", 1, 0, 40, 3, 0, -0.5, Vec3(1, 0, 0), 6, Shape::triangle, 2},
                    {"volume", 2, 17, 4, 0, 9, 0.75, Vec3(0, 2, 0), 7, Shape::prism, 3}};
   report.stages_s = {{"read", 0.5}, {"verify", 0.25}};
@@ -113,7 +114,8 @@ TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
                           "write", "verify"));
   EXPECT_THAT(keys(json["rescue"]),
               ElementsAre("load_steps", "patches", "faces_smoothed", "orders_lowered",
-                          "scaled_back", "pinched", "places"));
+                          "scaled_back", "put_back", "pinched", "elastic_products", "edges_removed",
+                          "pinched_split", "places"));
 }
 
 TEST(JsonReport, HoldsEveryValue) {

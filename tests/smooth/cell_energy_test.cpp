@@ -49,10 +49,8 @@ T naive_sample(EnergyKind kind, const Mat<T, 3>& M, double delta) {
     const T h = T(0.5) * (det + sqrt(det * det + T(4.0 * delta * delta)));
     return a * b / (T(9.0) * h * h) * T(0.5) * (h + T(1.0) / h);
   }
-  T inverse16(1.0);
-  for (int i = 0; i < 16; ++i) inverse16 = inverse16 / det;
-  const T cap = sqrt(sqrt(sqrt(sqrt(T(1.0) + inverse16))));
-  const T E = sqrt(a * b) / (T(3.0) * det) * cap;
+  const T m = det < T(1.0) ? T(1.0) / det - T(1.0) : T(0.0);
+  const T E = sqrt(a * b) / (T(3.0) * det) * (T(1.0) + m * m);
   return E * E * E * E;
 }
 

@@ -1,6 +1,7 @@
 #include <camber/base/parallel.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/elevate/order_rules.hpp>
+#include <camber/mesh/raise_orders.hpp>
 
 #include <algorithm>
 #include <array>
@@ -307,16 +308,7 @@ OrderField settle_orders(const LinearMesh& mesh, const Topology& topology,
                          const OrderRequests& requests, const OrderOptions& options) {
   std::vector<std::uint8_t> orders =
       cell_orders(topology, requests, mesh.cell_count(), options.min_order);
-  // From the highest order down: a raise never touches a level that is already settled.
-  for (int q = options.max_order; q > 2; --q) {
-    for (std::size_t f = 0; f < topology.face_count(); ++f) {
-      const auto [a, b] = topology.face2cell[f];
-      if (b == k_none) continue;
-      const std::uint8_t least = static_cast<std::uint8_t>(q - 1);
-      if (orders[at(a)] == q) orders[at(b)] = std::max(orders[at(b)], least);
-      if (orders[at(b)] == q) orders[at(a)] = std::max(orders[at(a)], least);
-    }
-  }
+  limit_order_jumps(topology, orders);
   return minimum_rule(topology, std::move(orders));
 }
 

@@ -1,4 +1,5 @@
 #include <camber/base/error.hpp>
+#include <camber/base/sorted_set.hpp>
 #include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/pinched.hpp>
 #include <camber/elevate/rescue.hpp>
@@ -217,8 +218,11 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("smooth");
   progress("smooth", 0.85);
-  result.report.smooth =
-      smooth_stage(result.curved, result.association, geometry, options, progress);
+  SmoothOutcome smoothed =
+      smooth_stage(*result.curved, geometry, {result.association, wall, placement, columns, layer},
+                   options, progress);
+  result.report.smooth = std::move(smoothed.rows);
+  result.report.rescue.put_back = smoothed.put_back;
 
   watch.next("measure");
   progress("measure", 0.9);

@@ -108,6 +108,7 @@ Json rescue(const Report& report) {
           {"faces_smoothed", report.rescue.faces_smoothed},
           {"orders_lowered", report.rescue.orders_lowered},
           {"scaled_back", report.rescue.scaled_back},
+          {"put_back", report.rescue.put_back},
           {"pinched", report.rescue.pinched},
           {"elastic_products", report.rescue.elastic_products},
           {"edges_removed", report.rescue.edges_removed},

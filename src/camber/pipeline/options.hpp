@@ -38,9 +38,10 @@ struct CurveOptions {
   Propagation propagation = Propagation::layer;
   LayerFieldOptions layer;
   Smoothing smoothing = Smoothing::automatic;
-  double quality = 0.95;   // --quality: cost C that every cell should have (paper's threshold)
-  double scale = 0.0;      // --unit: mesh length per CAD length (read as mm); 0: found
-  TagOptions association;  // --patch
+  double polish_below = 0.6;  // cells with a lower cost C are polished by Smoothing::automatic
+  double quality = 0.95;      // --quality: cost C that every cell should have (paper's threshold)
+  double scale = 0.0;         // --unit: mesh length per CAD length (read as mm); 0: found
+  TagOptions association;     // --patch
   LinkBy link_by = LinkBy::automatic;
   io::MeshLink mesh_link;      // --link FILE
   bool fit = false;            // slide wall nodes until the faces follow the CAD best

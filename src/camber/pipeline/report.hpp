@@ -99,7 +99,8 @@ struct Report {
     std::size_t faces_smoothed = 0;    // wall faces whose nodes slid along the CAD
     std::size_t elastic_products = 0;  // of the linear solve that replaced a tangled start
     std::size_t load_steps = 0, patches = 0, orders_lowered = 0, scaled_back = 0;
-    std::size_t pinched = 0;  // tets with two faces or three edges on one smooth CAD face
+    std::size_t put_back = 0;  // cells that smoothing made worse than any was: as before it
+    std::size_t pinched = 0;   // tets with two faces or three edges on one smooth CAD face
     // --split-pinched: edges removed behind them, and cells cut from their centre instead
     std::size_t edges_removed = 0, pinched_split = 0;
     std::vector<RescuePlace> places;

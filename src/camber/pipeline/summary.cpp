@@ -1,5 +1,6 @@
 #include <camber/base/parallel.hpp>
 #include <camber/basis/lagrange.hpp>
+#include <camber/mesh/raise_orders.hpp>
 #include <camber/metric/element_quality.hpp>
 #include <camber/pipeline/summary.hpp>
 #include <camber/validity/batch.hpp>
@@ -95,43 +96,9 @@ void certify_cells(CurveResult& result, Report& report) {
   }
 }
 
-/// Largest distance between what the two cells of a face make of it.
-void measure_gaps(const CurveResult& result, Report& report) {
-  const CurvedMesh& curved = *result.curved;
-  const Topology& topology = *result.topology;
-  std::vector<double> gap(topology.face_count(), 0.0);
-  parallel_for(topology.face_count(), 512, [&](std::size_t begin, std::size_t end) {
-    Points nodes;
-    std::array<Points, 2> seen;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto [a, b] = topology.face2cell[i];
-      if (b == k_none) continue;
-      const int q = std::max(curved.cell_order(a), curved.cell_order(b));
-      if (q < 2) continue;
-      const Shape shape = topology.face_shape[i];
-      for (std::size_t side = 0; side < 2; ++side) {
-        const Index c = side == 0 ? a : b;
-        curved.gather(c, q, nodes);
-        const std::span<const Index> cell_faces = topology.faces_of_cell(c);
-        std::size_t local = 0;
-        while (cell_faces[local] != static_cast<Index>(i)) ++local;
-        const std::vector<int>& slots =
-            lattice_map(curved.linear().cell_shape[at(c)], q).face[local];
-        const int view = topology.cell2face_view[at(topology.cell2face_offset[at(c)]) + local];
-        const std::span<const int> frame_node = face_view_nodes(shape, view, q);
-        seen[side].resize(slots.size());
-        for (std::size_t n = 0; n < slots.size(); ++n) {
-          seen[side][static_cast<std::size_t>(frame_node[n])] =
-              nodes[static_cast<std::size_t>(slots[n])];
-        }
-      }
-      for (std::size_t n = 0; n < seen[0].size(); ++n) {
-        gap[i] = std::max(gap[i], (seen[0][n] - seen[1][n]).norm());
-      }
-    }
-  });
-  report.conformity.max_gap = gap.empty() ? 0.0 : *std::max_element(gap.begin(), gap.end());
-  report.conformity.max_order_jump = largest_order_jump(topology, curved.orders());
+void measure_conformity(const CurveResult& result, Report& report) {
+  report.conformity.max_gap = largest_gap(*result.curved);
+  report.conformity.max_order_jump = largest_order_jump(*result.topology, result.curved->orders());
   report.conformity.model_size = result.linear->size();
 }
 
@@ -391,7 +358,7 @@ void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& w
   report.quality.target = options.quality;
   count_cells(result, options, report);
   certify_cells(result, report);
-  measure_gaps(result, report);
+  measure_conformity(result, report);
   measure_surface(result, geometry, wall, placement, options, report);
   measure_wall_spacing(result, wall, columns, report);
   list_rescue(result, wall, placement, ladder, report);

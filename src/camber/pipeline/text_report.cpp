@@ -265,20 +265,26 @@ void add_rescue(const Report& report, std::string& out) {
 }
 
 void add_smooth(const Report& report, std::string& out) {
-  const std::size_t all = report.smooth.size(), listed = std::min(all, k_rows_listed);
+  const std::vector<SmoothRow>& rows = report.smooth;
+  const std::size_t all = rows.size(), listed = std::min(all, k_rows_listed);
   if (all == 0) return;
   out += "\nSmoothing (cost C of the elements of the stage)\n";
   TextTable table;
   table.add({"stage", "pass", "iteration", "active nodes", "negative", "raised", "worst C", "at",
              "element"});
   for (std::size_t i = 0; i < listed; ++i) {
-    const SmoothRow& row = report.smooth[listed == 1 ? 0 : i * (all - 1) / (listed - 1)];
+    const SmoothRow& row = rows[listed == 1 ? 0 : i * (all - 1) / (listed - 1)];
     table.add({row.stage, fmt::format("{}", row.pass), fmt::format("{}", row.iteration),
                number(row.active_nodes), number(row.negative_elements),
                number(row.elevated_elements), number(row.worst_cost), place(row.place),
                fmt::format("{} {} Q{}", name(row.shape), row.element, row.order)});
   }
   out += table.text();
+  if (report.rescue.put_back > 0) {
+    out += fmt::format(
+        "  {} cells were worse than any before, or not certified, and got their shape back\n",
+        report.rescue.put_back);
+  }
 }
 
 void add_foot(const Report& report, std::string& out) {

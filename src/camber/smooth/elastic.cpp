@@ -13,7 +13,7 @@ ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
   ElasticResult result;
   result.unknowns = energy.unknowns().size();
   if (result.unknowns == 0) return result;
-  const detail::GroupSolver solver(energy);
+  const detail::GroupSolver solver = detail::GroupSolver::across_thin_cells(energy);
   result.largest_group = solver.largest_group();
 
   VecX u = VecX::Zero(energy.size()), r = energy.load(curved, straight), z, Kp;

@@ -1,4 +1,5 @@
 #include <camber/base/sorted_set.hpp>
+#include <camber/smooth/detail/cell_groups.hpp>
 #include <camber/smooth/detail/group_solver.hpp>
 #include <camber/smooth/lbfgs.hpp>
 #include <camber/smooth/patch.hpp>
@@ -29,44 +30,6 @@ constexpr double k_longest_step = 0.5;
 
 /// Rounds without progress before a group is given up.
 constexpr int k_patience = 3;
-
-std::vector<Index> neighbours(const Topology& topology, const std::vector<Index>& cells) {
-  std::vector<Index> grown = cells;
-  for (Index c : cells) {
-    for (Index e : topology.edges_of_cell(c)) {
-      for (Index other : topology.cells_of_edge(e)) grown.push_back(other);
-    }
-  }
-  make_sorted_set(grown);
-  return grown;
-}
-
-/// By high-order node: on an entity of the cells, and free.
-std::vector<std::uint8_t> nodes_of(const CurvedMesh& curved, const std::vector<Index>& cells,
-                                   const std::vector<std::uint8_t>& is_free) {
-  std::vector<std::uint8_t> is_own(is_free.size(), 0);
-  const auto mark = [&](Index first, std::size_t count) {
-    for (std::size_t i = at(first); i < at(first) + count; ++i) is_own[i] = is_free[i];
-  };
-  const Topology& topology = curved.topology();
-  for (Index c : cells) {
-    for (Index e : topology.edges_of_cell(c)) {
-      mark(curved.first_edge_node(e), curved.edge_nodes(e).size());
-    }
-    for (Index f : topology.faces_of_cell(c)) {
-      mark(curved.first_face_node(f), curved.face_nodes(f).size());
-    }
-    mark(curved.first_cell_node(c), curved.cell_nodes(c).size());
-  }
-  return is_own;
-}
-
-/// Curved cells that share an edge with one of the cells: all that depend on their nodes.
-std::vector<Index> curved_neighbours(const CurvedMesh& curved, const std::vector<Index>& cells) {
-  std::vector<Index> around = neighbours(curved.topology(), cells);
-  std::erase_if(around, [&](Index c) { return curved.cell_order(c) < 2; });
-  return around;
-}
 
 /// Cells of the patch that are not certified, with where.
 std::vector<std::pair<std::size_t, Vec3>> failing_cells(const CurvedMesh& curved,
@@ -142,29 +105,6 @@ void straighten(CurvedMesh& curved, const CurvedMesh& straight, const std::vecto
   }
 }
 
-/// Groups of cells connected through shared edges, by their lowest cell.
-std::vector<std::vector<Index>> connected_groups(const Topology& topology,
-                                                 const std::vector<Index>& cells) {
-  std::vector<Index> parent(cells.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-    return i;
-  };
-  std::unordered_map<Index, Index> first_on_edge;
-  for (Index i = 0; at(i) < cells.size(); ++i) {
-    for (Index e : topology.edges_of_cell(cells[at(i)])) {
-      const Index a = root(first_on_edge.emplace(e, i).first->second), b = root(i);
-      parent[at(std::max(a, b))] = std::min(a, b);
-    }
-  }
-  std::map<Index, std::vector<Index>> by_root;
-  for (Index i = 0; at(i) < cells.size(); ++i) by_root[root(i)].push_back(cells[at(i)]);
-  std::vector<std::vector<Index>> groups;
-  for (auto& [first, group] : by_root) groups.push_back(std::move(group));
-  return groups;
-}
-
 }  // namespace
 
 FixedEntities boundary_entities(const Topology& topology) {
@@ -181,18 +121,20 @@ FixedEntities boundary_entities(const Topology& topology) {
   return fixed;
 }
 
-std::vector<std::uint8_t> free_nodes(const CurvedMesh& curved) {
+std::vector<std::uint8_t> free_nodes(const CurvedMesh& curved,
+                                     const std::vector<Index>& frozen_cells) {
   const FixedEntities fixed = boundary_entities(curved.topology());
   std::vector<std::uint8_t> is_free(curved.high_order_node_count(), 1);
-  const auto fix = [&](Index first, std::size_t count) {
-    std::fill_n(is_free.begin() + first, count, std::uint8_t{0});
+  const auto fix = [&](std::size_t first, std::size_t count) {
+    std::fill_n(is_free.begin() + static_cast<std::ptrdiff_t>(first), count, std::uint8_t{0});
   };
   for (Index e = 0; at(e) < fixed.edge.size(); ++e) {
-    if (fixed.edge[at(e)]) fix(curved.first_edge_node(e), curved.edge_nodes(e).size());
+    if (fixed.edge[at(e)]) fix(at(curved.first_edge_node(e)), curved.edge_nodes(e).size());
   }
   for (Index f = 0; at(f) < fixed.face.size(); ++f) {
-    if (fixed.face[at(f)]) fix(curved.first_face_node(f), curved.face_nodes(f).size());
+    if (fixed.face[at(f)]) fix(at(curved.first_face_node(f)), curved.face_nodes(f).size());
   }
+  for (Index c : frozen_cells) detail::for_each_node_range(curved, c, fix);
   return is_free;
 }
 
@@ -201,7 +143,7 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
   UntangleResult result;
   const std::vector<std::uint8_t> is_free = free_nodes(curved);
   std::optional<CurvedMesh> straight;
-  for (const std::vector<Index>& group : connected_groups(curved.topology(), uncertified)) {
+  for (const std::vector<Index>& group : detail::connected_groups(curved.topology(), uncertified)) {
     ++result.patches;
     bool is_repaired = false;
     std::vector<Index> core = group;
@@ -210,12 +152,12 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
                  options.evaluations - std::min(options.evaluations, result.evaluations));
     std::size_t allowance = granted;
     for (int ring = 0; ring < options.rings && !is_repaired && allowance > 0; ++ring) {
-      core = neighbours(curved.topology(), core);
-      const std::vector<Index> around = curved_neighbours(curved, core);
+      core = detail::neighbours(curved.topology(), core);
+      const std::vector<Index> around = detail::curved_neighbours(curved, core);
       if (around.size() > options.max_cells) break;
-      detail::CellEnergy patch(curved, around, nodes_of(curved, core, is_free));
+      detail::CellEnergy patch(curved, around, detail::nodes_of(curved, core, is_free));
       if (patch.size() == 0) break;
-      const detail::GroupSolver scale(patch);
+      const detail::GroupSolver scale = detail::GroupSolver::across_thin_cells(patch);
       is_repaired = repair(curved, patch, scale, options, allowance);
       if (is_repaired) break;
       // A second start: the bad cells themselves straight. Flat cells tolerate little else.

@@ -13,8 +13,10 @@ struct FixedEntities {
 };
 /// Boundary faces, patch faces and their edges are fixed.
 [[nodiscard]] FixedEntities boundary_entities(const Topology& topology);
-/// By high-order node: not on an entity of boundary_entities().
-[[nodiscard]] std::vector<std::uint8_t> free_nodes(const CurvedMesh& curved);
+/// By high-order node: not on an entity of boundary_entities(), nor on one of the cells that are to
+/// stay as they are.
+[[nodiscard]] std::vector<std::uint8_t> free_nodes(const CurvedMesh& curved,
+                                                   const std::vector<Index>& frozen_cells = {});
 
 struct UntangleOptions {
   int rings = 3;        // layers of neighbours whose nodes may move too

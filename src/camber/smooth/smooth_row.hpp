@@ -10,11 +10,11 @@
 
 namespace camber {
 
-/// State of the mesh at the start of one iteration.
+/// State of the mesh at the start of one iteration; in the last row of a pass, the state it leaves.
 struct SmoothRow {
   std::string stage;                  // "surface" or "volume"
   int pass = 1;                       // of the stage
-  int iteration = 0;                  // of the pass; the last row of a pass is its end
+  int iteration = 0;                  // of the pass
   std::size_t active_nodes = 0;       // that are to be moved
   std::size_t negative_elements = 0;  // with a cost below 0 somewhere
   std::size_t elevated_elements = 0;  // raised in order since smoothing began

@@ -1,5 +1,6 @@
 #include <camber/base/parallel.hpp>
 #include <camber/base/processor.hpp>
+#include <camber/base/sorted_set.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/smooth/detail/cell_energy.hpp>
 #include <camber/smooth/distortion.hpp>
@@ -35,8 +36,7 @@ CellEnergy::CellEnergy(const CurvedMesh& curved, const std::vector<Index>& cells
       for (const NodeMap::Entry& e : map_.row(i, n)) used.push_back(e.column);
     }
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  make_sorted_set(used);
   columns_.resize(used.size());
   for (std::size_t k = 0; k < used.size(); ++k) {
     if (used[k] < vertex_total) {
@@ -94,6 +94,17 @@ CellEnergy::CellEnergy(const CurvedMesh& curved, const std::vector<Index>& cells
   slope_.resize(map_.row_count());
   cell_energy_.assign(cells.size(), 0.0);
   cell_least_.assign(cells.size(), 0.0);
+}
+
+std::vector<Index> CellEnergy::unknowns_of(std::size_t i) const {
+  std::vector<Index> own;
+  const std::size_t first = map_.first_row(i), last = map_.first_row(i + 1);
+  for (std::size_t k = row_offset_[first]; k < row_offset_[last]; ++k) {
+    const Index unknown = columns_[at(column_of_[k])].unknown;
+    if (unknown != k_none) own.push_back(unknown);
+  }
+  make_sorted_set(own);
+  return own;
 }
 
 VecX CellEnergy::positions(const CurvedMesh& curved) const {
@@ -344,65 +355,71 @@ std::vector<MatX> CellEnergy::diagonal_blocks(const std::vector<std::vector<Inde
       place[at(groups[g][k])] = static_cast<Index>(k);
     }
   }
-  // Cells one after the other, so that the sums have one order.
   struct Entry {
     Index unknown;
     std::size_t node;
     double coefficient;
   };
-  std::vector<Entry> entries;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;  // of entries
-  std::vector<double> sums;
-  for (const Batch& batch : batches_) {
-    const EnergyView view = batch.plan->view();
+  struct Part {  // of one cell
+    Index row, column;
+    double value;
+  };
+  std::vector<std::vector<Part>> parts(cells().size());
+  const auto add_cell = [&](const EnergyPlan& plan, std::size_t i) {
+    const EnergyView view = plan.view();
     const std::size_t n = sz(view.nodes);
-    for (std::size_t i : batch.cells) {
-      entries.clear();
-      for (std::size_t k = 0; k < n; ++k) {
-        const std::size_t row = map_.first_row(i) + k;
-        for (std::size_t e = row_offset_[row]; e < row_offset_[row + 1]; ++e) {
-          const Index unknown = columns_[at(column_of_[e])].unknown;
-          if (unknown != k_none) entries.push_back({unknown, k, coefficient_[e]});
+    std::vector<Entry> entries;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t row = map_.first_row(i) + k;
+      for (std::size_t e = row_offset_[row]; e < row_offset_[row + 1]; ++e) {
+        const Index unknown = columns_[at(column_of_[e])].unknown;
+        if (unknown != k_none) entries.push_back({unknown, k, coefficient_[e]});
+      }
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t a = 0; a < entries.size(); ++a) {
+      for (std::size_t b = 0; b <= a; ++b) {
+        if (group_of[at(entries[a].unknown)] == group_of[at(entries[b].unknown)]) {
+          pairs.emplace_back(entries[a].node, entries[b].node);
+          parts[i].push_back(
+              {entries[a].unknown, entries[b].unknown,
+               (a == b ? 0.5 : 1.0) * entries[a].coefficient * entries[b].coefficient});
         }
       }
-      pairs.clear();
-      for (std::size_t a = 0; a < entries.size(); ++a) {
-        for (std::size_t b = 0; b <= a; ++b) {
-          if (group_of[at(entries[a].unknown)] == group_of[at(entries[b].unknown)]) {
-            pairs.emplace_back(a, b);
-          }
+    }
+    std::vector<double> sums(pairs.size(), 0.0);
+    MatX g(3, static_cast<Eigen::Index>(n));
+    const std::span<const Index> v = mesh_.cell(cells()[i]);
+    const std::vector<int>& linear = lattice_map(plan.shape(), 1).corner;
+    for (int s = 0; s < view.samples; ++s) {
+      Mat3 W = Mat3::Zero();
+      for (std::size_t c = 0; c < v.size(); ++c) {
+        for (int d = 0; d < 3; ++d) {
+          W.col(d) += (mesh_.vertices[at(v[c])] - mesh_.vertices[at(v[0])]) *
+                      view.straight_gradient[(s * 3 + d) * view.corners + linear[c]];
         }
       }
-      sums.assign(pairs.size(), 0.0);
-      MatX g(3, static_cast<Eigen::Index>(n));
-      const std::span<const Index> v = mesh_.cell(cells()[i]);
-      const std::vector<int>& linear = lattice_map(batch.plan->shape(), 1).corner;
-      for (int s = 0; s < view.samples; ++s) {
-        Mat3 W = Mat3::Zero();
-        for (std::size_t c = 0; c < v.size(); ++c) {
-          for (int d = 0; d < 3; ++d) {
-            W.col(d) += (mesh_.vertices[at(v[c])] - mesh_.vertices[at(v[0])]) *
-                        view.straight_gradient[(s * 3 + d) * view.corners + linear[c]];
-          }
-        }
-        const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>> dN(
-            view.gradient + s * 3 * view.nodes, 3, view.nodes);
-        g.noalias() = W.inverse().transpose() * dN;
-        for (std::size_t p = 0; p < pairs.size(); ++p) {
-          sums[p] += view.weight[s] *
-                     g.col(static_cast<Eigen::Index>(entries[pairs[p].first].node))
-                         .dot(g.col(static_cast<Eigen::Index>(entries[pairs[p].second].node)));
-        }
-      }
+      const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>> dN(
+          view.gradient + s * 3 * view.nodes, 3, view.nodes);
+      g.noalias() = W.inverse().transpose() * dN;
       for (std::size_t p = 0; p < pairs.size(); ++p) {
-        const Entry &a = entries[pairs[p].first], &b = entries[pairs[p].second];
-        const double value = a.coefficient * b.coefficient * sums[p];
-        MatX& block = blocks[at(group_of[at(a.unknown)])];
-        block(place[at(a.unknown)], place[at(b.unknown)]) += value;
-        if (pairs[p].first != pairs[p].second) {
-          block(place[at(b.unknown)], place[at(a.unknown)]) += value;
-        }
+        sums[p] += view.weight[s] * g.col(static_cast<Eigen::Index>(pairs[p].first))
+                                        .dot(g.col(static_cast<Eigen::Index>(pairs[p].second)));
       }
+    }
+    for (std::size_t p = 0; p < pairs.size(); ++p) parts[i][p].value *= sums[p];
+  };
+  parallel_for(batches_.size(), k_batches_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      for (std::size_t i : batches_[b].cells) add_cell(*batches_[b].plan, i);
+    }
+  });
+  // Cells one after the other, so that the sums have one order.
+  for (const std::vector<Part>& cell : parts) {
+    for (const Part& part : cell) {
+      MatX& block = blocks[at(group_of[at(part.row)])];
+      block(place[at(part.row)], place[at(part.column)]) += part.value;
+      block(place[at(part.column)], place[at(part.row)]) += part.value;
     }
   }
   return blocks;

@@ -25,6 +25,8 @@ class CellEnergy {
   [[nodiscard]] Eigen::Index size() const {
     return 3 * static_cast<Eigen::Index>(unknowns_.size());
   }
+  /// Unknowns that the i-th cell depends on, sorted.
+  [[nodiscard]] std::vector<Index> unknowns_of(std::size_t i) const;
   [[nodiscard]] VecX positions(const CurvedMesh& curved) const;
   void store(const VecX& x, CurvedMesh& curved) const;
 

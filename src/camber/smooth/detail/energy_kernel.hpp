@@ -65,18 +65,6 @@ struct Sample {
   Matrix<W> slope;  // by T
 };
 
-/// x^16, and x^(1/16) for x > 0.
-template <int W>
-inline Pack<W> sixteenth_power(Pack<W> x) {
-  for (int i = 0; i < 4; ++i) x = x * x;
-  return x;
-}
-template <int W>
-inline Pack<W> sixteenth_root(Pack<W> x) {
-  for (int i = 0; i < 4; ++i) x = square_root(x);
-  return x;
-}
-
 /// The distortion of smooth/distortion.hpp: a b (1/h + 1/h^3) / 18 with a = |T|^2, b = |cof T|^2.
 template <int W>
 inline Sample<W> shape_sample(const Matrix<W>& T, const Matrix<W>& cof, const Pack<W>& tau,
@@ -105,25 +93,25 @@ inline Sample<W> shape_sample(const Matrix<W>& T, const Matrix<W>& cof, const Pa
   return s;
 }
 
-/// E^k, E = sqrt(a b) / (3 tau) (1 + tau^-16)^(1/16): WCN max(1, 1/tau), the cap made smooth.
-/// d ln E / d tau = -(1 + 1 / (1 + tau^16)) / tau.
+/// E^k, E = sqrt(a b) / (3 tau) (1 + m^2), m = max(0, 1/tau - 1): WCN times a one-sided size term.
+/// d ln E / d tau = -1/tau - 2 m / (tau^2 (1 + m^2)).
 template <int W>
 inline Sample<W> quality_sample(const Matrix<W>& T, const Matrix<W>& cof, const Pack<W>& tau) {
-  const Pack<W> one = broadcast<W>(1.0);
+  const Pack<W> one = broadcast<W>(1.0), zero = broadcast<W>(0.0);
   const Pack<W> a = dot(T, T), b = dot(cof, cof);
   const Pack<W> inverse = one / tau;
-  const Pack<W> cap = sixteenth_root(one + sixteenth_power(inverse));
+  const Pack<W> m = higher(zero, inverse - one);
+  const Pack<W> cap = one + m * m;
   const Pack<W> E = (1.0 / 3.0) * (square_root(a * b) * inverse * cap);
   Pack<W> power = E * E;
   power = power * power;  // E^4: k_quality_power
   // dF/dT = k F dlnE/dT; dlnE/dT = T/a + (b'/2)/b + (dlnE/dtau) cof.
   const Pack<W> kF = static_cast<double>(k_quality_power) * power;
   const Pack<W> by_T = kF / a, by_b = kF / b;
-  const Pack<W> by_cof =
-      broadcast<W>(0.0) - kF * inverse * (one + one / (one + sixteenth_power(tau)));
+  const Pack<W> by_cof = zero - kF * inverse * (one + 2.0 * (m * inverse) / cap);
   const Matrix<W> b_slope = half_cofactor_slope(T, a);
   Sample<W> s;
-  s.energy = where_not_negative(broadcast<W>(0.0) - tau, broadcast<W>(__builtin_inf()), power);
+  s.energy = where_not_negative(zero - tau, broadcast<W>(__builtin_inf()), power);
   for (int k = 0; k < 9; ++k) {
     const int i = k / 3, j = k % 3;
     s.slope.m[i][j] = by_T * T.m[i][j] + by_b * b_slope.m[i][j] + by_cof * cof.m[i][j];

@@ -6,7 +6,8 @@ namespace camber::detail {
 /// Which function of T = A W^-1 is summed over the samples of an element.
 enum class EnergyKind {
   shape,    // distortion(): |T|^2 |cof T|^2 / (9 h^2) (h + 1/h) / 2, h regularised by delta
-  quality,  // (1/C)^k, C of [karman2022] eq. (2) with a smooth cap; +inf where det T <= 0
+  quality,  // (WCN (1 + m^2))^k, m = max(0, 1/det T - 1): 1/C of [karman2022] eq. (2) with a smooth
+            // cap, at rest where T is a rotation; +inf where det T <= 0
   metric    // |T|^2: its slope is the stiffness times the argument
 };
 

@@ -26,8 +26,11 @@ GroupSolver::GroupSolver(std::vector<std::vector<Index>> groups, const std::vect
   });
 }
 
-GroupSolver::GroupSolver(CellEnergy& energy)
-    : GroupSolver(energy.thin_groups(), energy.diagonal_blocks(energy.thin_groups())) {}
+GroupSolver GroupSolver::across_thin_cells(CellEnergy& energy) {
+  std::vector<std::vector<Index>> groups = energy.thin_groups();
+  const std::vector<MatX> blocks = energy.diagonal_blocks(groups);
+  return {std::move(groups), blocks};
+}
 
 void GroupSolver::solve(const VecX& r, VecX& z) const {
   z.resize(r.size());

@@ -14,7 +14,8 @@ class GroupSolver : public InitialHessian {
  public:
   /// @param blocks  symmetric positive definite, one a group (CellEnergy::diagonal_blocks)
   GroupSolver(std::vector<std::vector<Index>> groups, const std::vector<MatX>& blocks);
-  explicit GroupSolver(CellEnergy& energy);
+  /// Over the thin groups of an energy.
+  [[nodiscard]] static GroupSolver across_thin_cells(CellEnergy& energy);
 
   /// z = B^-1 r, three entries a node.
   void solve(const VecX& r, VecX& z) const override;

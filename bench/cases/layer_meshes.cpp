@@ -33,7 +33,70 @@ SurfaceMesh refined_on_sphere(const SurfaceMesh& coarse) {
   return fine;
 }
 
-void append(MeshData& data, Shape shape, int entity, const std::vector<Index>& corners) {
+double six_volumes(const Points& x, const std::vector<Index>& v) {
+  const Vec3& o = x[at(v[0])];
+  return (x[at(v[1])] - o).cross(x[at(v[2])] - o).dot(x[at(v[3])] - o);
+}
+
+void append_tet(MeshData& data, std::vector<Index> corners) {
+  if (six_volumes(data.points, corners) < 0.0) std::swap(corners[1], corners[2]);
+  append_element(data, Shape::tetrahedron, 1, corners);
+}
+
+/// A prism as three tets; each lateral face is cut from its lower wall vertex at the bottom to its
+/// higher one at the top, so neighbours agree.
+void append_split(MeshData& data, std::array<Index, 3> low, Index step) {
+  std::sort(low.begin(), low.end());
+  const auto& [a, b, c] = low;
+  const std::array<std::vector<Index>, 3> tets{std::vector<Index>{a, b, c, c + step},
+                                               std::vector<Index>{a, b, b + step, c + step},
+                                               std::vector<Index>{a, a + step, b + step, c + step}};
+  for (const std::vector<Index>& tet : tets) append_tet(data, tet);
+}
+
+/// Pyramids and tets on the faces of the outermost layer, a tet over every edge between two of
+/// these, and the ragged boundary that is left.
+void append_caps(MeshData& data, const std::vector<std::array<Index, 4>>& faces, const Points& wall,
+                 const std::function<Vec3(const Vec3&)>& direction, const LayerOptions& options) {
+  const Index low = static_cast<Index>(data.points.size() - wall.size());
+  std::map<std::array<Index, 2>, std::vector<Index>> tips;  // by outer edge
+  for (const std::array<Index, 4>& face : faces) {
+    const std::size_t n = corners_of(face);
+    Vec3 foot = Vec3::Zero(), middle = Vec3::Zero();
+    double edge = 0.0;
+    std::vector<Index> cell;
+    for (std::size_t i = 0; i < n; ++i) {
+      foot += wall[at(face[i])] / static_cast<double>(n);
+      cell.push_back(face[i] + low);
+      const Vec3 &x = data.points[at(face[i] + low)],
+                 &next = data.points[at(face[(i + 1) % n] + low)];
+      middle += x / static_cast<double>(n);
+      edge += (next - x).norm() / static_cast<double>(n);
+    }
+    const Index tip = static_cast<Index>(data.points.size());
+    data.points.emplace_back(middle + options.cap_height * edge * direction(foot).normalized());
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto [a, b] = std::minmax(cell[i], cell[(i + 1) % n]);
+      tips[{a, b}].push_back(tip);
+    }
+    cell.push_back(tip);
+    append_element(data, n == 3 ? Shape::tetrahedron : Shape::pyramid, 1, cell);
+  }
+  for (const auto& [edge, over] : tips) {
+    const auto [a, b] = edge;
+    if (over.size() == 1) {
+      append_element(data, Shape::triangle, options.outer_entity, {a, b, over[0]});
+      continue;
+    }
+    append_tet(data, {a, b, over[0], over[1]});
+    append_element(data, Shape::triangle, options.outer_entity, {a, over[0], over[1]});
+    append_element(data, Shape::triangle, options.outer_entity, {b, over[0], over[1]});
+  }
+}
+
+}  // namespace
+
+void append_element(MeshData& data, Shape shape, int entity, const std::vector<Index>& corners) {
   ElementBlock* block = nullptr;
   for (ElementBlock& known : data.blocks) {
     if (known.shape == shape && known.entity == entity) block = &known;
@@ -49,27 +112,6 @@ void append(MeshData& data, Shape shape, int entity, const std::vector<Index>& c
   }
   block->nodes.insert(block->nodes.end(), nodes.begin(), nodes.end());
 }
-
-double six_volumes(const Points& x, const std::vector<Index>& v) {
-  const Vec3& o = x[at(v[0])];
-  return (x[at(v[1])] - o).cross(x[at(v[2])] - o).dot(x[at(v[3])] - o);
-}
-
-/// A prism as three tets; each lateral face is cut from its lower wall vertex at the bottom to its
-/// higher one at the top, so neighbours agree.
-void append_split(MeshData& data, std::array<Index, 3> low, Index step) {
-  std::sort(low.begin(), low.end());
-  const auto& [a, b, c] = low;
-  const std::array<std::vector<Index>, 3> tets{std::vector<Index>{a, b, c, c + step},
-                                               std::vector<Index>{a, b, b + step, c + step},
-                                               std::vector<Index>{a, a + step, b + step, c + step}};
-  for (std::vector<Index> tet : tets) {
-    if (six_volumes(data.points, tet) < 0.0) std::swap(tet[1], tet[2]);
-    append(data, Shape::tetrahedron, 1, tet);
-  }
-}
-
-}  // namespace
 
 SurfaceMesh icosphere(int refinements) {
   SurfaceMesh mesh;
@@ -209,9 +251,11 @@ MeshData layers_on(const SurfaceMesh& surface, const std::vector<double>& height
   const bool is_inside = normal.dot(direction(a)) < 0.0;
   const Index top = static_cast<Index>(heights.size() - 1);
   std::map<std::array<Index, 2>, int> uses;
+  std::vector<std::array<Index, 4>> standing;  // counter-clockwise seen from the layers
   for (std::array<Index, 4> face : surface.faces) {
     const std::size_t n = corners_of(face);
     if (is_inside) std::reverse(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(n));
+    standing.push_back(face);
     for (std::size_t i = 0; i < n; ++i) {
       ++uses[{std::min(face[i], face[(i + 1) % n]), std::max(face[i], face[(i + 1) % n])}];
     }
@@ -225,13 +269,14 @@ MeshData layers_on(const SurfaceMesh& surface, const std::vector<double>& height
       for (Index up : {low, low + step}) {
         for (std::size_t i = 0; i < n; ++i) cell.push_back(face[i] + up);
       }
-      append(data, n == 3 ? Shape::prism : Shape::hexahedron, 1, cell);
+      append_element(data, n == 3 ? Shape::prism : Shape::hexahedron, 1, cell);
     }
     for (Index layer : {0, top}) {
+      if (layer == top && options.filling == LayerFilling::capped) continue;
       std::vector<Index> v;
       for (std::size_t i = 0; i < n; ++i) v.push_back(face[i] + layer * step);
-      append(data, n == 3 ? Shape::triangle : Shape::quadrilateral,
-             layer == 0 ? options.wall_entity : options.outer_entity, v);
+      append_element(data, n == 3 ? Shape::triangle : Shape::quadrilateral,
+                     layer == 0 ? options.wall_entity : options.outer_entity, v);
     }
   }
   for (const auto& [edge, count] : uses) {
@@ -239,17 +284,20 @@ MeshData layers_on(const SurfaceMesh& surface, const std::vector<double>& height
     const auto [v, w] = edge;
     const Vec3 middle = 0.5 * (surface.points[at(v)] + surface.points[at(w)]);
     const int curve = options.rim_curve(middle);
-    if (curve > 0) append(data, Shape::line, curve, {v, w});
+    if (curve > 0) append_element(data, Shape::line, curve, {v, w});
     for (Index layer = 0; layer < top; ++layer) {
       const Index low = layer * step, high = low + step;
       const int entity = options.lateral_entity(middle);
       if (options.filling == LayerFilling::tets) {
-        append(data, Shape::triangle, entity, {v + low, w + low, w + high});
-        append(data, Shape::triangle, entity, {v + low, w + high, v + high});
+        append_element(data, Shape::triangle, entity, {v + low, w + low, w + high});
+        append_element(data, Shape::triangle, entity, {v + low, w + high, v + high});
       } else {
-        append(data, Shape::quadrilateral, entity, {v + low, w + low, w + high, v + high});
+        append_element(data, Shape::quadrilateral, entity, {v + low, w + low, w + high, v + high});
       }
     }
+  }
+  if (options.filling == LayerFilling::capped) {
+    append_caps(data, standing, surface.points, direction, options);
   }
   return data;
 }

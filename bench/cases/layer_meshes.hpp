@@ -36,9 +36,13 @@ SurfaceMesh stretched(SurfaceMesh surface, const Vec3& factors);
 double mean_edge(const SurfaceMesh& surface);
 
 enum class LayerFilling {
-  stacked,
-  tets
-};  // prisms and hexahedra as they are, or prisms cut in three
+  stacked,  // prisms and hexahedra as they are
+  tets,     // prisms cut in three
+  capped    // stacked, and on every outer face a pyramid or tet, with tets between these
+};
+
+/// Adds one linear element; `corners` in the order of shape.hpp.
+void append_element(MeshData& data, Shape shape, int entity, const std::vector<Index>& corners);
 
 struct LayerOptions {
   LayerFilling filling = LayerFilling::stacked;
@@ -47,10 +51,13 @@ struct LayerOptions {
   std::function<int(const Vec3&)> lateral_entity = [](const Vec3&) { return 1001; };
   /// Curve entity of a rim edge, 0 for none.
   std::function<int(const Vec3&)> rim_curve = [](const Vec3&) { return 0; };
+  /// Height of a cap over its face, in mean edges of that face.
+  double cap_height = 0.5;
 };
 
 /// Vertex `layer * points + i` is wall vertex i moved by heights[layer] along direction(point i).
-/// heights[0] = 0. Layers may lie inside the surface (direction against its normal).
+/// heights[0] = 0. Layers may lie inside the surface (direction against its normal). The points of
+/// caps come last, one a face, in direction(middle of the wall face).
 MeshData layers_on(const SurfaceMesh& surface, const std::vector<double>& heights,
                    const std::function<Vec3(const Vec3&)>& direction,
                    const LayerOptions& options = {});

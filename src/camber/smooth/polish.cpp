@@ -1,0 +1,199 @@
+#include <camber/base/parallel.hpp>
+#include <camber/base/sorted_set.hpp>
+#include <camber/metric/element_quality.hpp>
+#include <camber/smooth/detail/cell_groups.hpp>
+#include <camber/smooth/detail/group_solver.hpp>
+#include <camber/smooth/lbfgs.hpp>
+#include <camber/smooth/polish.hpp>
+#include <camber/validity/element_validity.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace camber {
+namespace {
+
+/// Rounds of putting back the nodes of cells that came out worse.
+constexpr int k_put_back_rounds = 60;
+/// A cell below the kept costs may pay this much for its neighbours.
+constexpr double k_price = 0.02;
+/// Strain of a patch at most, summed in squares over its cells.
+constexpr double k_longest_step = 0.5;
+
+double cost_of(const CurvedMesh& curved, Index c, Points& nodes) {
+  const int p = curved.cell_order(c);
+  if (p < 2) return 1.0;
+  curved.gather(c, p, nodes);
+  return element_cost(curved.linear().cell_shape[at(c)], p, nodes).minimum;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The cell came out worse than it may: below the lowest cost of the patch, out of the kept costs,
+/// much lower than it was, or not certified.
+bool is_worse(const CurvedMesh& curved, Index c, double before, double after, double lowest,
+              double kept) {
+  if (after < before && (after < lowest || after < before - k_price)) return true;
+  if (before >= kept && after < kept) return true;
+  Points nodes;
+  curved.gather(c, curved.cell_order(c), nodes);
+  return quick_verdict(curved.linear().cell_shape[at(c)], curved.cell_order(c), nodes) !=
+         Verdict::valid;
+}
+
+/// Stores x, putting the nodes of cells that came out worse back to `start` until none did; returns
+/// the costs, or nothing if it did not end.
+std::vector<double> store_what_is_better(CurvedMesh& curved, const detail::CellEnergy& energy,
+                                         const VecX& start, VecX x,
+                                         const std::vector<double>& before, double kept) {
+  const double lowest = *std::min_element(before.begin(), before.end());
+  const std::vector<Index>& cells = energy.cells();
+  std::vector<std::vector<Index>> own(cells.size());
+  std::vector<std::vector<std::size_t>> users(energy.unknowns().size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    own[i] = energy.unknowns_of(i);
+    for (Index u : own[i]) users[at(u)].push_back(i);
+  }
+  std::vector<double> after(before);
+  std::vector<std::uint8_t> is_back(users.size(), 0), is_bad(cells.size(), 0);
+  std::vector<std::size_t> changed(cells.size());
+  std::iota(changed.begin(), changed.end(), std::size_t{0});
+  for (int round = 0; round < k_put_back_rounds; ++round) {
+    energy.store(x, curved);
+    parallel_for(changed.size(), 32, [&](std::size_t begin, std::size_t end) {
+      Points nodes;
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::size_t i = changed[k];
+        after[i] = cost_of(curved, cells[i], nodes);
+        is_bad[i] = is_worse(curved, cells[i], before[i], after[i], lowest, kept);
+      }
+    });
+    std::vector<std::size_t> next;
+    for (std::size_t i : changed) {
+      if (!is_bad[i]) continue;
+      for (Index u : own[i]) {
+        if (is_back[at(u)]) continue;
+        is_back[at(u)] = 1;
+        x.segment<3>(3 * u) = start.segment<3>(3 * u);
+        next.insert(next.end(), users[at(u)].begin(), users[at(u)].end());
+      }
+    }
+    if (next.empty()) return after;
+    make_sorted_set(next);
+    changed = std::move(next);
+  }
+  return {};
+}
+
+SmoothRow row_of(const CurvedMesh& curved, const std::vector<double>& costs, int number,
+                 std::size_t active) {
+  SmoothRow row;
+  row.stage = "volume";
+  row.iteration = number;
+  row.active_nodes = active;
+  const auto worst = std::min_element(costs.begin(), costs.end());
+  const Index c = static_cast<Index>(worst - costs.begin());
+  const LinearMesh& mesh = curved.linear();
+  for (double cost : costs) row.negative_elements += cost < 0.0;
+  row.worst_cost = *worst;
+  for (Index v : mesh.cell(c)) row.place += mesh.vertices[at(v)];
+  row.place /= static_cast<double>(mesh.cell(c).size());
+  row.element = mesh.cell_tags[at(c)];
+  row.shape = mesh.cell_shape[at(c)];
+  row.order = curved.cell_order(c);
+  return row;
+}
+
+bool has_free_node(const CurvedMesh& curved, Index c, const std::vector<std::uint8_t>& is_free) {
+  bool is_any = false;
+  detail::for_each_node_range(curved, c, [&](std::size_t first, std::size_t count) {
+    const auto begin = is_free.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(count);
+    is_any = is_any || std::find(begin, end, 1) != end;
+  });
+  return is_any;
+}
+
+/// One patch; true if it was improved.
+bool polish_patch(CurvedMesh& curved, const std::vector<Index>& core,
+                  const std::vector<std::uint8_t>& is_free, std::vector<double>& costs,
+                  const PolishOptions& options, PolishResult& result) {
+  const std::vector<Index> cells = detail::curved_neighbours(curved, core);
+  detail::CellEnergy energy(curved, cells, detail::nodes_of(curved, core, is_free));
+  if (energy.size() == 0) return false;
+  const detail::GroupSolver hessian = detail::GroupSolver::across_thin_cells(energy);
+  const VecX start = energy.positions(curved);
+  VecX x = start;
+  int evaluations = 0;
+  LbfgsOptions lbfgs;
+  lbfgs.max_iterations = options.max_evaluations;
+  lbfgs.gradient_tolerance = options.gradient_tolerance;
+  lbfgs.longest_step = k_longest_step;
+  minimise_lbfgs(
+      [&](const VecX& y, VecX& gradient) {
+        ++evaluations;
+        return energy.evaluate(detail::EnergyKind::quality, y, 0.0, gradient);
+      },
+      x, hessian, lbfgs, [&](const VecX&) { return evaluations >= options.max_evaluations; });
+  result.evaluations += static_cast<std::size_t>(evaluations) * cells.size();
+
+  std::vector<double> before;
+  for (Index c : cells) before.push_back(costs[at(c)]);
+  const std::vector<double> after =
+      store_what_is_better(curved, energy, start, x, before, options.kept_cost);
+  if (after.empty() || !(mean(after) > mean(before))) {
+    energy.store(start, curved);
+    return false;
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) costs[at(cells[i])] = after[i];
+  return true;
+}
+
+}  // namespace
+
+std::vector<double> cell_costs(const CurvedMesh& curved, const std::vector<Index>& cells) {
+  std::vector<double> costs(cells.size());
+  parallel_for(cells.size(), 64, [&](std::size_t begin, std::size_t end) {
+    Points nodes;
+    for (std::size_t i = begin; i < end; ++i) costs[i] = cost_of(curved, cells[i], nodes);
+  });
+  return costs;
+}
+
+std::vector<double> cell_costs(const CurvedMesh& curved) {
+  std::vector<Index> cells(curved.linear().cell_count());
+  std::iota(cells.begin(), cells.end(), 0);
+  return cell_costs(curved, cells);
+}
+
+PolishResult polish(CurvedMesh& curved, const std::vector<std::uint8_t>& is_free,
+                    std::vector<double>& costs, const PolishOptions& options,
+                    const SmoothListener& listener) {
+  PolishResult result;
+  std::vector<Index> grown;
+  for (Index c = 0; at(c) < costs.size(); ++c) {
+    if (costs[at(c)] < options.cost_target && has_free_node(curved, c, is_free)) {
+      grown.push_back(c);
+    }
+  }
+  result.seeds = grown.size();
+  const auto report = [&](std::size_t active) {
+    result.rows.push_back(row_of(curved, costs, static_cast<int>(result.patches), active));
+    if (listener) listener(result.rows.back());
+  };
+  for (int ring = 1; ring < options.rings; ++ring) {
+    grown = detail::neighbours(curved.topology(), grown);
+  }
+  for (const std::vector<Index>& core : detail::connected_groups(curved.topology(), grown)) {
+    if (core.size() > options.max_cells) continue;
+    report(core.size());
+    ++result.patches;
+    result.improved += polish_patch(curved, core, is_free, costs, options, result);
+  }
+  if (result.patches > 0) report(0);
+  return result;
+}
+
+}  // namespace camber
