@@ -1,4 +1,5 @@
 // camber associate: finds what links a mesh and its CAD and writes it as MeshLink XML.
+#include <camber/base/parallel.hpp>
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/cad_link.hpp>
 #include <camber/pipeline/mesh_link.hpp>
@@ -49,6 +50,7 @@ int run(const AssociateFlags& flags) {
                      flags.output);
   line.clear();
   report.command = "associate";
+  report.threads = thread_count();
   report.input.mesh = flags.mesh;
   report.input.geometry = flags.geometry;
   report.output.path = flags.output;

@@ -112,6 +112,7 @@ TEST_F(BadInput, AMeshWithoutABoundaryOnTheCad) {
   MeshData mesh = io::read_mesh(k_mesh);
   std::erase_if(mesh.blocks, [](const ElementBlock& b) { return dimension(b.shape) < 3; });
   for (EntityKey& key : mesh.point_entity) key = {3, 1};
+  for (Vec3& x : mesh.points) x += Vec3(50.0, 0.0, 0.0);
   expect_refused_mesh(mesh, "no surface of the mesh refers to the CAD");
 }
 

@@ -151,5 +151,21 @@ TEST_F(CliTest, CitesThePaper) {
   EXPECT_THAT(outcome.out, HasSubstr("karman2022"));
 }
 
+TEST_F(CliTest, AssociateWritesALinkThatCurveTakes) {
+  const std::string mesh = bundled("wing/linear.msh"), cad = bundled("wing/body.step");
+  const Outcome found =
+      camber({"associate", mesh, "-g", cad, "-o", file("link.xml"), "--link", "shape"});
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(found.out, HasSubstr("found by shape"));
+  EXPECT_THAT(found.out, HasSubstr("confidence"));
+  const Outcome curved = camber(
+      {"curve", mesh, "-g", cad, "-l", file("link.xml"), "-o", file("a.msh"), "--order", "2"});
+  EXPECT_EQ(curved.code, 0) << curved.err;
+  EXPECT_EQ(camber({"curve", mesh, "-g", cad, "-o", file("b.msh"), "--order", "2", "--patch",
+                    "1=face_99"})
+                .code,
+            1);
+}
+
 }  // namespace
 }  // namespace camber::cli

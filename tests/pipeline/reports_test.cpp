@@ -94,8 +94,8 @@ TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
 
   EXPECT_THAT(keys(json),
               ElementsAre("camber", "command", "status", "exit_code", "options", "input", "output",
-                          "validity", "conformity", "surface", "quality", "wall_spacing", "rescue",
-                          "smooth", "time", "memory", "threads", "ranks", "warnings"));
+                          "validity", "conformity", "link", "surface", "quality", "wall_spacing",
+                          "rescue", "smooth", "time", "memory", "threads", "ranks", "warnings"));
   EXPECT_THAT(keys(json["input"]), ElementsAre("mesh", "geometry", "cells", "nodes"));
   EXPECT_THAT(keys(json["input"]["cells"]), ElementsAre("tet", "pyramid", "prism", "hex"));
   EXPECT_THAT(keys(json["output"]),

@@ -9,13 +9,6 @@
 #include <fmt/format.h>
 
 namespace camber {
-namespace {
-
-/// Patches whose faces had second choices nearly as good as the first are named in the report.
-constexpr double k_sure = 0.7;
-
-}  // namespace
-
 Association CadLink::link(const LinearMesh& mesh, const Topology& topology, Report& report) {
   if (options_.link_by == LinkBy::file) return by_file(mesh, topology, report);
   if (is_by_shape_) return by_shape(mesh, topology, report);
@@ -72,11 +65,12 @@ Association CadLink::by_shape(const LinearMesh& mesh, const Topology& topology,
   for (int face : link.cad_without_mesh) {
     found.cad_without_mesh.push_back(fmt::format("face_{}", face));
   }
-  found.unsure.clear();
+  found.patches.clear();
   for (std::size_t p = 0; p < link.confidence.size(); ++p) {
     const Patch& patch = link.association.patches[p];
-    if (patch.group.empty() || link.confidence[p] > k_sure) continue;
-    found.unsure.push_back(patch.name);
+    LinkRow row{patch.name, {}, patch.faces, link.confidence[p]};
+    for (const GeomEntity& face : patch.group) row.cad.push_back(fmt::format("face_{}", face.tag));
+    found.patches.push_back(std::move(row));
   }
   return std::move(link.association);
 }

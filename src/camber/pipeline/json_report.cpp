@@ -63,6 +63,17 @@ Json validity(const Report& report) {
           {"worst", worst}};
 }
 
+Json link_patches(const Report& report) {
+  Json patches = Json::array();
+  for (const LinkRow& row : report.link.patches) {
+    patches.push_back({{"name", row.name},
+                       {"cad", row.cad},
+                       {"faces", row.faces},
+                       {"confidence", row.confidence}});
+  }
+  return patches;
+}
+
 Json surface(const Report& report) {
   Json groups = Json::array(), by_order = Json::array();
   for (const SurfaceRow& row : report.surface.by_group) {
@@ -171,7 +182,7 @@ std::string json_report(const Report& report) {
                   {"on_cad", report.link.on_cad},
                   {"straddling", report.link.straddling},
                   {"off_cad", report.link.off_cad},
-                  {"unsure", report.link.unsure},
+                  {"patches", link_patches(report)},
                   {"cad_without_mesh", report.link.cad_without_mesh},
                   {"largest_distance", report.link.largest_distance}};
   json["surface"] = surface(report);

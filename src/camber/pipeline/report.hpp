@@ -32,6 +32,13 @@ struct SurfaceRow {  // one group (patch on CAD), or one order
   double linear_average = 0.0, linear_maximum = 0.0;  // of the linear mesh
 };
 
+struct LinkRow {  // one patch
+  std::string name;
+  std::vector<std::string> cad;  // "face_3"; empty: no CAD
+  std::size_t faces = 0;
+  double confidence = 1.0;  // share by which first choices were better than second ones
+};
+
 struct RescuePlace {
   GlobalId cell = 0;
   Shape shape = Shape::point;
@@ -64,7 +71,7 @@ struct Report {
     std::size_t faces = 0, on_cad = 0;  // boundary faces; of these on CAD faces
     std::size_t straddling = 0;         // across CAD edges: on a group of several faces
     std::size_t off_cad = 0;            // nodes on the CAD, the face not: left straight
-    std::vector<std::string> unsure;    // patches with a second choice nearly as good
+    std::vector<LinkRow> patches;       // if it was found by shape
     std::vector<std::string> cad_without_mesh;
     double largest_distance = 0.0;  // of a linked vertex to its CAD entity
   } link;

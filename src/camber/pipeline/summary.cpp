@@ -289,11 +289,13 @@ void warn(const CurveResult& result, Report& report) {
         "share their nodes",
         result.linear->sewn_vertices));
   }
+  std::size_t bare = 0;
   for (const Patch& patch : result.association.patches) {
-    if (patch.entity == 0) {
-      report.warnings.push_back(
-          fmt::format("{} boundary faces have no surface element and stay straight", patch.faces));
-    }
+    if (patch.entity == 0 && patch.group.empty()) bare += patch.faces;
+  }
+  if (bare > 0) {
+    report.warnings.push_back(fmt::format(
+        "{} boundary faces have no surface element and no CAD and stay straight", bare));
   }
 }
 

@@ -123,10 +123,14 @@ void add_validity(const Report& report, std::string& out) {
   if (!v.worst.empty()) out += table.text();
 }
 
+/// Patches of less confidence had second choices nearly as good as the first.
+constexpr double k_sure = 0.7;
+
 /// Only what was found by shape needs telling.
 void add_link(const Report& report, std::string& out) {
   const auto& link = report.link;
   if (link.method != "shape") return;
+  bool is_any = false;
   out += "\nLink to the CAD: found by shape\n";
   if (!link.reason.empty()) out += fmt::format("  why not by tags: {}\n", link.reason);
   out += fmt::format("  {} of {} boundary faces on the CAD, {} of them across CAD edges\n",
@@ -136,7 +140,16 @@ void add_link(const Report& report, std::string& out) {
                        link.off_cad);
   }
   out += fmt::format("  largest distance of a linked vertex {:.3g}\n", link.largest_distance);
-  if (!link.unsure.empty()) out += wrapped("  not sure of:", link.unsure);
+  TextTable table;
+  table.add({"patch", "CAD", "faces", "confidence"});
+  for (const LinkRow& row : link.patches) {
+    // What is certain stands in the table of surfaces already, unless the link is all there is.
+    if (report.command == "curve" && row.confidence > k_sure) continue;
+    if (row.cad.empty()) continue;
+    table.add({row.name, joined(row.cad), number(row.faces), number(row.confidence)});
+    is_any = true;
+  }
+  if (is_any) out += table.text();
   if (!link.cad_without_mesh.empty()) {
     out += wrapped("  CAD faces without mesh:", link.cad_without_mesh);
   }
