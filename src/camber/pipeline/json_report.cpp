@@ -114,6 +114,7 @@ Json rescue(const Report& report) {
           {"scaled_back", report.rescue.scaled_back},
           {"put_back", report.rescue.put_back},
           {"pinched", report.rescue.pinched},
+          {"elastic_patches", report.rescue.elastic_patches},
           {"elastic_products", report.rescue.elastic_products},
           {"edges_removed", report.rescue.edges_removed},
           {"pinched_split", report.rescue.pinched_split},

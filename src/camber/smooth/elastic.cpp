@@ -1,3 +1,4 @@
+#include <camber/smooth/detail/cell_groups.hpp>
 #include <camber/smooth/detail/group_solver.hpp>
 #include <camber/smooth/elastic.hpp>
 
@@ -36,6 +37,17 @@ ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
   result.residual = first > 0.0 ? std::sqrt(rz / first) : 0.0;
   energy.store(energy.positions(straight) + u, curved);
   return result;
+}
+
+ElasticResult relax_elastic_around(CurvedMesh& curved, const std::vector<Index>& core, int rings,
+                                   const std::vector<std::uint8_t>& is_free,
+                                   const ElasticOptions& options) {
+  std::vector<Index> grown = core;
+  for (int ring = 0; ring < rings; ++ring) {
+    grown = detail::neighbours(curved.topology(), grown);
+  }
+  return relax_elastic(curved, detail::curved_neighbours(curved, grown),
+                       detail::nodes_of(curved, grown, is_free), options);
 }
 
 }  // namespace camber
