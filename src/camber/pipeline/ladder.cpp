@@ -87,7 +87,7 @@ std::vector<Index> cells_over(const LinearMesh& mesh, const Topology& topology, 
 }
 
 /// Rings around bad cells whose nodes the elastic rung moves.
-constexpr int k_relaxed_rings = 6;
+constexpr int k_relaxed_rings = 20;
 
 /// One elastic solve around the bad cells, kept if fewer cells are uncertified after it.
 /// @param still  then the uncertified cells

@@ -5,6 +5,12 @@
 #include <cmath>
 
 namespace camber {
+namespace {
+
+/// Cells from which on a region grows no further ring.
+constexpr std::size_t k_enough_around = 10000;
+
+}  // namespace
 
 ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
                             const std::vector<std::uint8_t>& is_free,
@@ -43,7 +49,7 @@ ElasticResult relax_elastic_around(CurvedMesh& curved, const std::vector<Index>&
                                    const std::vector<std::uint8_t>& is_free,
                                    const ElasticOptions& options) {
   std::vector<Index> grown = core;
-  for (int ring = 0; ring < rings; ++ring) {
+  for (int ring = 0; ring < rings && grown.size() < k_enough_around; ++ring) {
     grown = detail::neighbours(curved.topology(), grown);
   }
   return relax_elastic(curved, detail::curved_neighbours(curved, grown),
