@@ -104,6 +104,7 @@ struct Report {
   } wall_spacing;
   struct {
     std::size_t faces_smoothed = 0;    // wall faces whose nodes slid along the CAD
+    std::size_t elastic_patches = 0;   // elastic solves around cells that nothing else mended
     std::size_t elastic_products = 0;  // of the linear solve that replaced a tangled start
     std::size_t load_steps = 0, patches = 0, orders_lowered = 0, scaled_back = 0;
     std::size_t put_back = 0;  // cells that smoothing made worse than any was: as before it
@@ -111,6 +112,7 @@ struct Report {
     // --split-pinched: edges removed behind them, and cells cut from their centre instead
     std::size_t edges_removed = 0, pinched_split = 0;
     std::vector<RescuePlace> places;
+    std::vector<RescuePlace> mended;  // groups of cells certified by moving volume nodes: no cost
   } rescue;
   std::vector<std::pair<std::string, double>>
       stages_s;  // read, associate, elevate, place, propagate, ...
