@@ -63,6 +63,7 @@ std::vector<Column> columns() {
       count("lowered", &Row::lowered),
       count("scaled", &Row::scaled_back),
       count("iters", &Row::iterations),
+      count("products", &Row::products),
       number("certify_s", "{:.3f}", [](const Row& row) { return row.certify_s; }),
       number("rescue_s", "{:.3f}", [](const Row& row) { return row.rescue_s; }),
       number("smooth_s", "{:.3f}", [](const Row& row) { return row.smooth_s; }),

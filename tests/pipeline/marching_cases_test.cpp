@@ -203,6 +203,7 @@ TEST(MarchingInAWholeRun, KeepsEveryCertificateAndSaysWhatItDid) {
   EXPECT_EQ(marched.validity.invalid + marched.validity.undecided, 0u);
   EXPECT_GE(marched.quality.minimum, none.quality.minimum);
   EXPECT_GE(marched.quality.average, none.quality.average);
+  EXPECT_LE(marched.surface.faces_over_deviation, none.surface.faces_over_deviation);
   EXPECT_LT(marched.conformity.max_gap, 1e-13);
   const SmoothRow& last = marched.smooth.back();
   const auto first = std::find_if(marched.smooth.begin(), marched.smooth.end(),

@@ -115,7 +115,7 @@ TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
   EXPECT_THAT(keys(json["rescue"]),
               ElementsAre("load_steps", "patches", "faces_smoothed", "orders_lowered",
                           "scaled_back", "put_back", "pinched", "elastic_products", "edges_removed",
-                          "pinched_split", "places"));
+                          "pinched_split", "mended", "places"));
 }
 
 TEST(JsonReport, HoldsEveryValue) {

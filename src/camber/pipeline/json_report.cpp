@@ -94,15 +94,19 @@ Json surface(const Report& report) {
           {"patches_without_cad", report.surface.patches_without_cad}};
 }
 
-Json rescue(const Report& report) {
-  Json places = Json::array();
-  for (const RescuePlace& place : report.rescue.places) {
-    places.push_back({{"cell", place.cell},
-                      {"shape", name(place.shape)},
-                      {"centre", to_json(place.centre)},
-                      {"distance", place.distance},
-                      {"reason", place.reason}});
+Json list_of(const std::vector<RescuePlace>& places) {
+  Json list = Json::array();
+  for (const RescuePlace& place : places) {
+    list.push_back({{"cell", place.cell},
+                    {"shape", name(place.shape)},
+                    {"centre", to_json(place.centre)},
+                    {"distance", place.distance},
+                    {"reason", place.reason}});
   }
+  return list;
+}
+
+Json rescue(const Report& report) {
   return {{"load_steps", report.rescue.load_steps},
           {"patches", report.rescue.patches},
           {"faces_smoothed", report.rescue.faces_smoothed},
@@ -113,7 +117,8 @@ Json rescue(const Report& report) {
           {"elastic_products", report.rescue.elastic_products},
           {"edges_removed", report.rescue.edges_removed},
           {"pinched_split", report.rescue.pinched_split},
-          {"places", places}};
+          {"mended", list_of(report.rescue.mended)},
+          {"places", list_of(report.rescue.places)}};
 }
 
 Json smooth(const Report& report) {

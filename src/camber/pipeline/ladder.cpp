@@ -103,7 +103,8 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     if (to_lower.empty()) {
       const UntangleResult mended = untangle(curved, bad, fixed, effort);
       effort.evaluations -= std::min(effort.evaluations, mended.evaluations);
-      result.patches_repaired += mended.repaired;
+      result.mended.insert(result.mended.end(), mended.mended.begin(), mended.mended.end());
+      result.load_steps += mended.load_steps;
       bad = mended.still_bad;
       to_lower = bad;
     }

@@ -11,7 +11,8 @@
 namespace camber {
 
 struct LadderResult {
-  std::size_t patches_repaired = 0;     // groups of cells mended by moving volume nodes only
+  std::vector<Index> mended;            // first cells of groups mended by moving volume nodes only
+  std::size_t load_steps = 0;           // of groups that needed them
   std::size_t wall_faces_smoothed = 0;  // faces whose nodes slid along the CAD
   std::vector<Index> lowered_faces;     // wall face slots whose shape was lowered below their order
   RescueResult scaled;                  // the last rung

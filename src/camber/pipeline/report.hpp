@@ -95,6 +95,7 @@ struct Report {
     // --split-pinched: edges removed behind them, and cells cut from their centre instead
     std::size_t edges_removed = 0, pinched_split = 0;
     std::vector<RescuePlace> places;
+    std::vector<RescuePlace> mended;  // groups of cells certified by moving volume nodes: no cost
   } rescue;
   std::vector<std::pair<std::string, double>>
       stages_s;  // read, associate, elevate, place, propagate, ...

@@ -1,5 +1,6 @@
 #include <camber/base/parallel.hpp>
 #include <camber/base/sorted_set.hpp>
+#include <camber/elevate/order_rules.hpp>
 #include <camber/elevate/rescue.hpp>
 #include <camber/mesh/raise_orders.hpp>
 #include <camber/pipeline/marching_boundary.hpp>
@@ -8,7 +9,9 @@
 #include <camber/smooth/polish.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <utility>
 
 namespace camber {
 namespace {
@@ -68,13 +71,82 @@ std::vector<Index> first_cells(const Topology& topology, const Wall& wall, const
   return first;
 }
 
-/// Puts back cells that lost their certificate or are worse than any was before; all if the mean
-/// cost fell. Ends: a pass restores something that was not restored before, or tests nothing again.
+/// Cells under wall faces that smoothing moved and that miss their CAD by more than was asked, and
+/// by more than before.
+class DeviationGuard {
+ public:
+  DeviationGuard(const CurvedMesh& before, const GeometryModel& geometry, const FieldSource& field,
+                 const OrderOptions& orders)
+      : before_(before),
+        geometry_(geometry),
+        field_(field),
+        orders_(orders),
+        shortest_(shortest_edges(before.linear(), before.topology())) {}
+
+  [[nodiscard]] std::vector<Index> missing(const CurvedMesh& curved,
+                                           const std::vector<Index>& cells) const {
+    std::vector<std::pair<Index, Index>> faces;  // slot, cell
+    for (Index c : cells) {
+      for (Index f : curved.topology().faces_of_cell(c)) {
+        const Index slot = field_.wall.face_slot[at(f)];
+        if (slot != k_none && lattice(curved, f) != lattice(before_, f))
+          faces.emplace_back(slot, c);
+      }
+    }
+    std::vector<std::uint8_t> is_missing(faces.size(), 0);
+    parallel_for_with(
+        faces.size(), k_grain, [&] { return geometry_.projector(); },
+        [&](std::size_t begin, std::size_t end, std::unique_ptr<Projector>& projector) {
+          for (std::size_t i = begin; i < end; ++i) {
+            is_missing[i] = is_worse(*projector, curved, faces[i].first);
+          }
+        });
+    std::vector<Index> found;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (is_missing[i]) found.push_back(faces[i].second);
+    }
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t k_grain = 32;
+
+  static Points lattice(const CurvedMesh& curved, Index f) {
+    const int q = curved.face_order(f);
+    Points nodes(static_cast<std::size_t>(node_count(curved.topology().face_shape[at(f)], q)));
+    curved.face_lattice(f, q, nodes);
+    return nodes;
+  }
+  [[nodiscard]] double distance(Projector& projector, const CurvedMesh& curved, Index slot) const {
+    const Index f = field_.wall.faces[at(slot)];
+    return measure_face(projector, field_.association.patch_of(f)->group,
+                        curved.topology().face_shape[at(f)], curved.face_order(f),
+                        lattice(curved, f),
+                        &field_.wall.corners[at(field_.wall.face_corners[at(slot)][0])])
+        .maximum;
+  }
+  [[nodiscard]] bool is_worse(Projector& projector, const CurvedMesh& curved, Index slot) const {
+    const double now = distance(projector, curved, slot);
+    return now > orders_.deviation * deviation_length(curved.linear(), curved.topology(),
+                                                      field_.wall.faces[at(slot)], shortest_,
+                                                      orders_) &&
+           now > distance(projector, before_, slot);
+  }
+
+  const CurvedMesh& before_;
+  const GeometryModel& geometry_;
+  const FieldSource& field_;
+  const OrderOptions& orders_;
+  std::vector<double> shortest_;
+};
+
+/// Puts back cells that lost their certificate, are worse than any was before, or whose wall faces
+/// smoothing moved out of the deviation; all if the mean cost fell. Ends: a pass restores something
+/// that was not restored before, or tests nothing again.
 /// @return cells that were put back
-std::size_t keep_the_better(CurvedMesh& curved, const CurvedMesh& before) {
-  std::vector<Index> all(curved.linear().cell_count());
-  std::iota(all.begin(), all.end(), 0);
-  const std::vector<double> cost_before = cell_costs(before, all);
+std::size_t keep_the_better(CurvedMesh& curved, const CurvedMesh& before,
+                            const DeviationGuard& guard) {
+  const std::vector<double> cost_before = cell_costs(before);
   const double lowest = *std::min_element(cost_before.begin(), cost_before.end());
   const auto mean = [](const std::vector<double>& costs) {
     return ordered_sum(costs.size(), [&](std::size_t i) { return costs[i]; }) /
@@ -82,6 +154,8 @@ std::size_t keep_the_better(CurvedMesh& curved, const CurvedMesh& before) {
   };
   const auto find_bad = [&](const std::vector<Index>& cells) {
     std::vector<Index> bad = uncertified_cells(curved, cells);
+    const std::vector<Index> missing = guard.missing(curved, cells);
+    bad.insert(bad.end(), missing.begin(), missing.end());
     const std::vector<double> costs = cell_costs(curved, cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (costs[i] < lowest) bad.push_back(cells[i]);
@@ -89,14 +163,17 @@ std::size_t keep_the_better(CurvedMesh& curved, const CurvedMesh& before) {
     make_sorted_set(bad);
     return bad;
   };
+  std::vector<Index> all(cost_before.size());
+  std::iota(all.begin(), all.end(), 0);
   Restorer restorer(curved, before);
   std::vector<Index> restored;
   for (std::vector<Index> bad = find_bad(all); !bad.empty();) {
     restored.insert(restored.end(), bad.begin(), bad.end());
     bad = find_bad(restorer.restore(bad));
   }
-  if (mean(cell_costs(curved, all)) < mean(cost_before)) {
-    restored = restorer.restore(all);
+  if (mean(cell_costs(curved)) < mean(cost_before)) {
+    restorer.restore(all);
+    restored = all;
   }
   make_sorted_set(restored);
   return restored.size();
@@ -115,7 +192,9 @@ SmoothOutcome march(CurvedMesh& curved, const GeometryModel& geometry, const Fie
         progress("smooth " + row.stage, IterationState{row.iteration, row.active_nodes,
                                                        row.negative_elements, row.worst_cost});
       });
-  return {result.rows, keep_the_better(curved, raise_orders(start, curved.orders().cell))};
+  const CurvedMesh before = raise_orders(start, curved.orders().cell);
+  const DeviationGuard guard(before, geometry, field, options.orders);
+  return {result.rows, keep_the_better(curved, before, guard)};
 }
 
 SmoothOutcome polish_patches(CurvedMesh& curved, const FieldSource& field,

@@ -18,9 +18,9 @@ struct SmoothOutcome {
 
 /// Smooths as the options say. The mesh may be replaced by one of higher orders. Every cell that
 /// was certified is so afterwards, and the lowest cost of all cells is not lower: edges, faces and
-/// insides of cells that lost their certificate, or fell below the lowest cost from before, get
-/// their shape from before, until none is left; all do if the mean cost would be lower.
-/// Deterministic for any number of threads.
+/// insides of cells that lost their certificate, fell below the lowest cost from before, or whose
+/// wall faces left the deviation asked, get their shape from before, until none is left; all do if
+/// the mean cost would be lower. Deterministic for any number of threads.
 /// `auto` leaves the nodes of the first cells of the layers alone, so that the near-wall spacing
 /// stays.
 /// @throws Cancelled through progress

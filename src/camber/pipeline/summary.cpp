@@ -249,7 +249,13 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
   const LinearMesh& mesh = *result.linear;
   const Topology& topology = *result.topology;
   report.rescue.pinched = ladder.pinched.size();
-  report.rescue.patches = ladder.patches_repaired;
+  report.rescue.patches = ladder.mended.size();
+  report.rescue.load_steps = ladder.load_steps;
+  for (Index c : ladder.mended) {
+    report.rescue.mended.push_back({mesh.cell_tags[at(c)], mesh.cell_shape[at(c)],
+                                    centre_of(mesh, c), 0.0,
+                                    "volume nodes around moved until certified"});
+  }
   report.rescue.faces_smoothed = ladder.wall_faces_smoothed;
   report.rescue.orders_lowered = ladder.lowered_faces.size();
   report.rescue.scaled_back = ladder.scaled.scaled_back.size();

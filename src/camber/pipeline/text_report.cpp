@@ -262,9 +262,8 @@ void add_smooth(const Report& report, std::string& out) {
   }
   out += table.text();
   if (report.rescue.put_back > 0) {
-    out += fmt::format(
-        "  {} cells were worse than any before, or not certified, and got their shape back\n",
-        report.rescue.put_back);
+    out += fmt::format("  {} cells came out worse than any was and got their shape back\n",
+                       report.rescue.put_back);
   }
 }
 

@@ -105,6 +105,52 @@ void straighten(CurvedMesh& curved, const CurvedMesh& straight, const std::vecto
   }
 }
 
+/// Share of the displacement at which each load step ends.
+constexpr std::array<double, 4> k_load_steps{0.25, 0.5, 0.75, 1.0};
+
+/// Brings all nodes of a patch from near the straight copy to their places in steps, fixed ones
+/// exactly, and optimises the free ones after each; true if the last step is certified, else all
+/// nodes are as they were.
+/// @param steps  those made are added
+bool repair_in_steps(CurvedMesh& curved, const CurvedMesh& straight,
+                     const std::vector<Index>& around, const std::vector<std::uint8_t>& is_own,
+                     const UntangleOptions& options, std::size_t& allowance, std::size_t& steps) {
+  const std::span<Vec3> x = curved.high_order_nodes();
+  std::vector<std::size_t> loaded;
+  for (Index c : around) {
+    detail::for_each_node_range(curved, c, [&](std::size_t first, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i) loaded.push_back(i);
+    });
+  }
+  make_sorted_set(loaded);
+  Points target;
+  for (std::size_t i : loaded) target.push_back(x[i]);
+  bool is_certified = false;
+  double before = 0.0;
+  for (double load : k_load_steps) {
+    for (std::size_t k = 0; k < loaded.size(); ++k) {
+      const Vec3& X = straight.high_order_nodes()[loaded[k]];
+      Vec3& place = x[loaded[k]];
+      if (before == 0.0) {
+        place = X + load * (target[k] - X);
+      } else if (is_own[loaded[k]]) {
+        place += (load - before) * (target[k] - X);
+      } else {
+        place = load == 1.0 ? target[k] : Vec3(X + load * (target[k] - X));
+      }
+    }
+    before = load;
+    detail::CellEnergy patch(curved, around, is_own);
+    is_certified =
+        repair(curved, patch, detail::GroupSolver::across_thin_cells(patch), options, allowance);
+    ++steps;
+    if (!is_certified) break;
+  }
+  if (is_certified) return true;
+  for (std::size_t k = 0; k < loaded.size(); ++k) x[loaded[k]] = target[k];
+  return false;
+}
+
 }  // namespace
 
 FixedEntities boundary_entities(const Topology& topology) {
@@ -151,11 +197,15 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
         std::min(options.evaluations_per_group,
                  options.evaluations - std::min(options.evaluations, result.evaluations));
     std::size_t allowance = granted;
+    std::vector<Index> around;
+    std::vector<std::uint8_t> is_own;
     for (int ring = 0; ring < options.rings && !is_repaired && allowance > 0; ++ring) {
       core = detail::neighbours(curved.topology(), core);
-      const std::vector<Index> around = detail::curved_neighbours(curved, core);
-      if (around.size() > options.max_cells) break;
-      detail::CellEnergy patch(curved, around, detail::nodes_of(curved, core, is_free));
+      std::vector<Index> touched = detail::curved_neighbours(curved, core);
+      if (touched.size() > options.max_cells) break;
+      around = std::move(touched);
+      is_own = detail::nodes_of(curved, core, is_free);
+      detail::CellEnergy patch(curved, around, is_own);
       if (patch.size() == 0) break;
       const detail::GroupSolver scale = detail::GroupSolver::across_thin_cells(patch);
       is_repaired = repair(curved, patch, scale, options, allowance);
@@ -167,9 +217,15 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
       is_repaired = repair(curved, patch, scale, options, allowance);
       if (!is_repaired) patch.store(carried, curved);
     }
+    if (!is_repaired && straight && !around.empty() && allowance > 0) {
+      std::size_t steps = 0;
+      is_repaired = repair_in_steps(curved, *straight, around, is_own, options, allowance, steps);
+      if (is_repaired) result.load_steps += steps;
+    }
     result.evaluations += granted - allowance;
     if (is_repaired) {
       ++result.repaired;
+      result.mended.push_back(group.front());
     } else {
       result.still_bad.insert(result.still_bad.end(), group.begin(), group.end());
     }

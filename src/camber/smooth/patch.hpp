@@ -29,15 +29,19 @@ struct UntangleOptions {
 
 struct UntangleResult {
   std::size_t patches = 0, repaired = 0;  // connected groups tried, and certified afterwards
+  std::vector<Index> mended;              // first cell of each group repaired
+  std::size_t load_steps = 0;             // of groups that only these repaired
   std::vector<Index> still_bad;           // cells of groups that were put back as they were
   std::size_t evaluations = 0;            // of one cell, spent
 };
 
 /// For each connected group of uncertified cells: minimises the distortion energy over the free
 /// nodes of the group and its rings (L-BFGS, scaled by the diagonal of the energy's metric part),
-/// regularised while something is inverted, until every cell it touches is certified; else the
-/// group is put back as it was. Energy: Gauss points with weights of equal sum per cell, plus the
-/// lattice points with little weight, plus points where a certificate failed. Deterministic.
+/// regularised while something is inverted, until every cell it touches is certified: from the
+/// nodes as they are, from the cells straight, and in steps of load from near the straight copy;
+/// else the group is put back as it was. Energy: Gauss points with weights of equal sum per cell,
+/// plus the lattice points with little weight, plus points where a certificate failed.
+/// Deterministic.
 UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified,
                         const FixedEntities& fixed, const UntangleOptions& options = {});
 
