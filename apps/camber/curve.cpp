@@ -4,6 +4,7 @@
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <map>
@@ -24,6 +25,7 @@ struct CurveFlags {
   CurveOptions options;
   std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
                     smoothing = "auto";
+  std::string link = "auto";
   bool is_quality_given = false;
   std::vector<std::string> geometry, outputs, patches;
 };
@@ -47,34 +49,23 @@ void set_deviation_length(const std::string& text, OrderOptions& orders) {
   orders.deviation_length = DeviationLength::given;
 }
 
-void set_patches(const std::vector<std::string>& texts, TagOptions& association) {
-  static const std::map<std::string, PatchRule> rules{{"free", PatchRule::free},
-                                                      {"fixed", PatchRule::fixed},
-                                                      {"plane", PatchRule::plane},
-                                                      {"wall", PatchRule::wall}};
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.rfind('=');
-    const auto rule =
-        equals == std::string::npos ? rules.end() : rules.find(text.substr(equals + 1));
-    if (rule == rules.end() || equals == 0) {
-      throw OptionError("'" + text + "' is no rule for a patch", "--patch",
-                        "give NAME=free, NAME=fixed, NAME=plane or NAME=wall");
-    }
-    association.patches[text.substr(0, equals)] = rule->second;
-  }
-}
-
 CurveOptions options_of(const CurveFlags& flags) {
   CurveOptions options = flags.options;
   options.scale = scale_of_unit(flags.unit);
   set_deviation_length(flags.deviation_length, options.orders);
-  set_patches(flags.patches, options.association);
+  options.association = association_of(flags.patches);
   options.propagation = flags.propagation == "cell"      ? Propagation::cell
                         : flags.propagation == "elastic" ? Propagation::elastic
                                                          : Propagation::layer;
   if (flags.is_quality_given) options.polish_below = options.quality;
   if (flags.smoothing != "auto") {
     options.smoothing = flags.smoothing == "none" ? Smoothing::none : Smoothing::marching;
+  }
+  if (flags.link == "tags" || flags.link == "shape") {
+    options.link_by = flags.link == "tags" ? LinkBy::tags : LinkBy::shape;
+  } else if (flags.link != "auto") {
+    options.link_by = LinkBy::file;
+    options.mesh_link = io::read_meshlink(flags.link);
   }
   if (options.orders.min_order > options.orders.max_order) {
     throw OptionError(fmt::format("the lowest order {} is above the highest, {}",
@@ -97,6 +88,7 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"smooth", flags.smoothing},
       {"quality", fmt::format("{:g}", options.quality)},
       {"unit", flags.unit},
+      {"link", flags.link},
       {"fit", yes_no(options.fit)},
       {"split-pinched", yes_no(options.split_pinched)},
       {"allow-invalid", yes_no(options.allow_invalid)},
@@ -221,8 +213,7 @@ void add_order_flags(CLI::App& verb, CurveFlags& flags) {
 
 Verb add_curve(CLI::App& app) {
   const auto flags = std::make_shared<CurveFlags>();
-  CLI::App* verb =
-      app.add_subcommand("curve", "curve a linear mesh onto the CAD that its tags refer to");
+  CLI::App* verb = app.add_subcommand("curve", "curve a linear mesh onto its CAD");
   verb->add_option("mesh", flags->mesh, "linear mesh (.msh)")->required()->type_name("MESH");
   verb->add_option("-g,--geometry", flags->geometry, "CAD file (.step .stp .iges .igs .brep)")
       ->required()
@@ -238,12 +229,13 @@ Verb add_curve(CLI::App& app) {
   add_order_flags(*verb, *flags);
   add_smoothing_flags(*verb, *flags);
   add_unit_flag(*verb, flags->unit);
-  verb->add_option("--patch", flags->patches,
-                   "how a patch behaves, by name or surface number: free, fixed, plane or wall; "
-                   "may be given several times; default: by its tag and shape")
-      ->type_name("NAME=RULE")
-      ->expected(1)
-      ->take_all();
+  verb->add_option("-l,--link", flags->link,
+                   "what links mesh and CAD. A MeshLink file (.xml); tags: the surface tags of "
+                   "the mesh; shape: place and shape alone; auto: tags if they fit the CAD, else "
+                   "shape")
+      ->type_name("LINK|auto|tags|shape")
+      ->capture_default_str();
+  add_patch_flag(*verb, flags->patches);
   verb->add_flag("--fit", flags->options.fit,
                  "slide wall nodes along the CAD until the faces follow it as closely as their "
                  "order can; default: evenly spread nodes");

@@ -1,5 +1,6 @@
 #pragma once
 // Flags that several verbs have in common.
+#include <camber/associate/by_tags.hpp>
 #include <camber/io/mesh_file.hpp>
 
 #include <functional>
@@ -43,6 +44,11 @@ void add_to_flags(CLI::App& verb, FormatFlags& flags);
 /// Mesh length per CAD length (the CAD is read in millimetres); 0: found by comparing boxes.
 [[nodiscard]] double scale_of_unit(const std::string& unit);
 void add_unit_flag(CLI::App& verb, std::string& unit);
+
+/// --patch NAME=RULE
+void add_patch_flag(CLI::App& verb, std::vector<std::string>& patches);
+/// @throws OptionError for what is no rule and no CAD face
+[[nodiscard]] TagOptions association_of(const std::vector<std::string>& patches);
 
 /// The one CAD file of -g. @throws OptionError if there are more
 [[nodiscard]] const std::string& only_geometry(const std::vector<std::string>& files);

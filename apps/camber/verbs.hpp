@@ -5,6 +5,7 @@
 namespace camber::app {
 
 [[nodiscard]] Verb add_curve(CLI::App& app);
+[[nodiscard]] Verb add_associate(CLI::App& app);
 [[nodiscard]] Verb add_check(CLI::App& app);
 [[nodiscard]] Verb add_info(CLI::App& app);
 [[nodiscard]] Verb add_convert(CLI::App& app);

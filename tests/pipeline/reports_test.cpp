@@ -112,10 +112,11 @@ TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
   EXPECT_THAT(keys(json["time"]["stages_s"]),
               ElementsAre("read", "associate", "elevate", "place", "propagate", "certify", "smooth",
                           "write", "verify"));
-  EXPECT_THAT(keys(json["rescue"]),
-              ElementsAre("load_steps", "patches", "faces_smoothed", "orders_lowered",
-                          "scaled_back", "put_back", "pinched", "elastic_products", "edges_removed",
-                          "pinched_split", "mended", "places"));
+  EXPECT_THAT(
+      keys(json["rescue"]),
+      ElementsAre("load_steps", "patches", "faces_smoothed", "orders_lowered", "scaled_back",
+                  "put_back", "pinched", "elastic_patches", "elastic_products", "edges_removed",
+                  "pinched_split", "mended", "places"));
 }
 
 TEST(JsonReport, HoldsEveryValue) {

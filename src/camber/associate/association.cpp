@@ -37,6 +37,27 @@ bool fit_plane(const LinearMesh& mesh, const Topology& topology, const std::vect
   return true;
 }
 
+Vec3 outward_normal(const LinearMesh& mesh, const Topology& topology, Index face) {
+  const std::array<Index, 4>& v = topology.face2vertex[at(face)];
+  const int n = topology.corners_of_face(face);
+  Vec3 normal = Vec3::Zero(), centre = Vec3::Zero();
+  const Vec3& first = mesh.vertices[at(v[0])];
+  for (int i = 0; i < n; ++i) {
+    const Vec3& a = mesh.vertices[at(v[static_cast<std::size_t>(i)])];
+    const Vec3& b = mesh.vertices[at(v[static_cast<std::size_t>((i + 1) % n)])];
+    normal += (a - first).cross(b - first);
+    centre += a / n;
+  }
+  // The cell lies behind the face: thin cells still have their other vertices on that side.
+  const Index cell = topology.face2cell[at(face)][0];
+  Vec3 cell_centre = Vec3::Zero();
+  for (Index c : mesh.cell(cell)) cell_centre += mesh.vertices[at(c)];
+  cell_centre /= static_cast<double>(mesh.cell(cell).size());
+  if (normal.dot(centre - cell_centre) < 0.0) normal = -normal;
+  const double length = normal.norm();
+  return length > 0.0 ? Vec3(normal / length) : Vec3::Zero();
+}
+
 std::map<int, std::vector<Index>> boundary_faces_by_entity(const LinearMesh& mesh,
                                                            const Topology& topology) {
   std::map<int, std::vector<Index>> by_entity;

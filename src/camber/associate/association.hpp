@@ -46,6 +46,9 @@ struct Association {
                              const std::vector<Index>& faces, double tolerance, Vec3& origin,
                              Vec3& normal);
 
+/// Unit normal of a straight face (Newell), pointing out of its first cell.
+[[nodiscard]] Vec3 outward_normal(const LinearMesh& mesh, const Topology& topology, Index face);
+
 /// Boundary faces by patch, in patch order of `patches` (patch faces of the file; cell faces on the
 /// boundary without a surface element get a patch of their own with entity 0).
 [[nodiscard]] std::map<int, std::vector<Index>> boundary_faces_by_entity(const LinearMesh& mesh,

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace camber {
 
@@ -14,6 +15,8 @@ struct TagOptions {
   /// the CAD's own tolerance.
   double distance_tolerance = 1e-4;
   std::map<std::string, PatchRule> patches;
+  /// Patch -> CAD faces it may lie on, by number (face_3) or name; association by shape only.
+  std::map<std::string, std::vector<std::string>> faces;
 };
 
 /// Association by Gmsh's entity tags: surface, curve and vertex tags are those of the CAD (the

@@ -1,9 +1,12 @@
 #include <camber/associate/cad_scale.hpp>
+#include <camber/associate/detail/boundary.hpp>
 #include <camber/base/error.hpp>
+#include <camber/geom/box_tree.hpp>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -12,8 +15,10 @@
 namespace camber {
 namespace {
 
-/// Mesh lengths per CAD length (OpenCASCADE gives millimetres): mm, m, micrometre, inch, ..., foot.
-constexpr std::array<double, 7> k_usual_scales{1.0, 1e-3, 1e3, 1.0 / 25.4, 25.4, 1e-2, 1.0 / 304.8};
+/// Mesh lengths per CAD length (OpenCASCADE gives millimetres): mm, m, micrometre, inch, ...,
+/// centimetre, foot.
+constexpr std::array<double, 8> k_usual_scales{1.0,  1e-3, 1e3, 1.0 / 25.4,
+                                               25.4, 1e-2, 0.1, 1.0 / 304.8};
 /// Nodes lie on the CAD, or miss it by the error of the mesh; a wrong unit moves the CAD by half of
 /// the model's size and more.
 constexpr double k_misfit = 0.1;
@@ -42,7 +47,73 @@ double largest_distance(const GeometryModel& geometry, const std::vector<Sample>
   return largest;
 }
 
+/// Without tags: boundary vertices looked at, and how far from the CAD they may be, as a share of
+/// their longest boundary edge.
+constexpr std::size_t k_boundary_samples = 300;
+constexpr double k_near_share = 0.02;
+/// The vertices on the CAD take at least this share of its room: the CAD in a unit too large meets
+/// only some of them, on its planes; a mesh of half the body meets half.
+constexpr double k_least_room = 0.15;
+
+/// How well boundary vertices lie on the CAD at its present scale.
+struct Fit {
+  std::size_t on_cad = 0;
+  Box room;  // of these vertices
+};
+
+Fit boundary_fit(const LinearMesh& mesh, const Boundary& boundary, const GeometryModel& geometry) {
+  Fit fit;
+  std::vector<Box> boxes;
+  for (int face = 1; face <= geometry.count(2); ++face) boxes.push_back(geometry.box({2, face}));
+  const std::unique_ptr<Projector> projector = geometry.projector();
+  const std::size_t step = boundary.vertices.size() / k_boundary_samples + 1;
+  for (std::size_t s = 0; s < boundary.vertices.size(); s += step) {
+    const Vec3& x = mesh.vertices[at(boundary.vertices[s])];
+    const double near = k_near_share * boundary.longest_at[s];
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (distance_squared(boxes[i], x) > near * near) continue;
+      if (projector->closest({2, static_cast<int>(i) + 1}, x).distance > near) continue;
+      ++fit.on_cad;
+      fit.room.add(x);
+      break;
+    }
+  }
+  return fit;
+}
+
 }  // namespace
+
+double fit_cad_scale_by_shape(const LinearMesh& mesh, const Topology& topology,
+                              GeometryModel& geometry, double scale) {
+  if (scale > 0.0) {
+    geometry.set_scale(scale);
+    return scale;
+  }
+  const Boundary boundary = collect_boundary(mesh, topology);
+  const double given = geometry.scale();
+  double best = given;
+  std::size_t most = 0;
+  for (double factor : k_usual_scales) {
+    geometry.set_scale(given * factor);
+    const double room = geometry.box().diagonal();
+    // The CAD is at most as large as the mesh or, where only a part was meshed, a few times that.
+    if (k_least_room * room > mesh.size()) continue;
+    const Fit fit = boundary_fit(mesh, boundary, geometry);
+    if (fit.on_cad <= most || fit.room.diagonal() < k_least_room * room) continue;
+    most = fit.on_cad;
+    best = given * factor;
+  }
+  geometry.set_scale(best);
+  if (most == 0) {
+    throw GeometryError(
+        fmt::format("mesh and CAD do not fit in any usual unit: no boundary vertex lies on the CAD "
+                    "(the mesh measures {:.6g}, the CAD {:.6g})",
+                    mesh.size(), geometry.box().diagonal()),
+        "association by shape",
+        "give the CAD that this mesh was made from, in its place, or --unit");
+  }
+  return best;
+}
 
 double fit_cad_scale(const MeshData& data, GeometryModel& geometry, double scale) {
   const std::vector<Sample> samples = sample_nodes(data, geometry.count(2));

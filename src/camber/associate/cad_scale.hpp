@@ -1,6 +1,7 @@
 #pragma once
 #include <camber/geom/geometry_model.hpp>
 #include <camber/mesh/mesh_data.hpp>
+#include <camber/mesh/topology.hpp>
 
 namespace camber {
 
@@ -11,5 +12,11 @@ namespace camber {
 /// @return the scale that was set
 /// @throws GeometryError if no surface element refers to the CAD or no usual unit makes them fit.
 double fit_cad_scale(const MeshData& data, GeometryModel& geometry, double scale = 0.0);
+
+/// The same for a mesh without the CAD's tags: the usual unit in which most of a sample of boundary
+/// vertices lie on the CAD, and spread over as much room as it takes.
+/// @throws GeometryError if in no usual unit a vertex lies on the CAD
+double fit_cad_scale_by_shape(const LinearMesh& mesh, const Topology& topology,
+                              GeometryModel& geometry, double scale = 0.0);
 
 }  // namespace camber

@@ -42,7 +42,4 @@ struct Wall {
 [[nodiscard]] Wall build_wall(const LinearMesh& mesh, const Topology& topology,
                               const Association& association, const GeometryModel& model);
 
-/// Unit normal of a straight face (Newell), pointing out of its first cell.
-[[nodiscard]] Vec3 outward_normal(const LinearMesh& mesh, const Topology& topology, Index face);
-
 }  // namespace camber

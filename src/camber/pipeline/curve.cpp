@@ -1,9 +1,9 @@
-#include <camber/associate/cad_scale.hpp>
 #include <camber/base/error.hpp>
 #include <camber/base/sorted_set.hpp>
 #include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/pinched.hpp>
 #include <camber/elevate/rescue.hpp>
+#include <camber/pipeline/cad_link.hpp>
 #include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/smooth_stage.hpp>
@@ -147,10 +147,9 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("associate");
   progress("associate", 0.1);
-  fit_cad_scale(data, geometry, options.scale);
+  CadLink cad_link(data, geometry, options);
   const Relink link = [&](CurveResult& linked) {
-    linked.association =
-        associate_by_tags(*linked.linear, *linked.topology, geometry, options.association);
+    linked.association = cad_link.link(*linked.linear, *linked.topology, linked.report);
     return build_wall(*linked.linear, *linked.topology, linked.association, geometry);
   };
   Wall wall = link(result);

@@ -114,6 +114,7 @@ Json rescue(const Report& report) {
           {"scaled_back", report.rescue.scaled_back},
           {"put_back", report.rescue.put_back},
           {"pinched", report.rescue.pinched},
+          {"elastic_patches", report.rescue.elastic_patches},
           {"elastic_products", report.rescue.elastic_products},
           {"edges_removed", report.rescue.edges_removed},
           {"pinched_split", report.rescue.pinched_split},
@@ -170,6 +171,15 @@ std::string json_report(const Report& report) {
   json["conformity"] = {{"max_gap", report.conformity.max_gap},
                         {"max_order_jump", report.conformity.max_order_jump},
                         {"model_size", report.conformity.model_size}};
+  json["link"] = {{"method", report.link.method},
+                  {"reason", report.link.reason},
+                  {"faces", report.link.faces},
+                  {"on_cad", report.link.on_cad},
+                  {"straddling", report.link.straddling},
+                  {"off_cad", report.link.off_cad},
+                  {"unsure", report.link.unsure},
+                  {"cad_without_mesh", report.link.cad_without_mesh},
+                  {"largest_distance", report.link.largest_distance}};
   json["surface"] = surface(report);
   json["quality"] = {{"cost",
                       {{"minimum", report.quality.minimum},

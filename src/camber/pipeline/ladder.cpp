@@ -1,8 +1,10 @@
 #include <camber/base/sorted_set.hpp>
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/wall_repair.hpp>
+#include <camber/smooth/elastic.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace camber {
 namespace {
@@ -84,6 +86,24 @@ std::vector<Index> cells_over(const LinearMesh& mesh, const Topology& topology, 
   return cells;
 }
 
+/// Rings around bad cells whose nodes the elastic rung moves.
+constexpr int k_relaxed_rings = 20;
+
+/// One elastic solve around the bad cells, kept if fewer cells are uncertified after it.
+/// @param still  then the uncertified cells
+bool relax_around(CurvedMesh& curved, const std::vector<Index>& bad, LadderResult& result,
+                  std::vector<Index>& still) {
+  CurvedMesh relaxed = curved;
+  relax_elastic_around(relaxed, bad, k_relaxed_rings, free_nodes(curved));
+  std::vector<Index> all(curved.linear().cell_count());
+  std::iota(all.begin(), all.end(), 0);
+  still = uncertified_cells(relaxed, all);
+  if (still.size() >= bad.size()) return false;
+  curved = std::move(relaxed);
+  ++result.elastic_patches;
+  return true;
+}
+
 }  // namespace
 
 LadderResult climb(CurvedMesh& curved, const Association& association, const GeometryModel& model,
@@ -96,6 +116,7 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
   const Topology& topology = curved.topology();
   const FixedEntities fixed = boundary_entities(topology);
   std::vector<std::uint8_t> is_smoothed(wall.face_count(), 0);
+  bool is_relaxed = false;
   UntangleOptions effort;
   std::vector<Index> bad = uncertified;
   for (int pass = 0; pass <= 2 * k_max_order && !bad.empty(); ++pass) {
@@ -118,6 +139,16 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     std::vector<Index> changed =
         smooth_wall_faces(mesh, topology, association, model, wall, placement, to_smooth);
     result.wall_faces_smoothed += changed.size();
+    if (changed.empty() && !is_relaxed) {
+      is_relaxed = true;
+      to_lower.insert(to_lower.end(), bad.begin(), bad.end());
+      make_sorted_set(to_lower);
+      std::vector<Index> still;
+      if (relax_around(curved, to_lower, result, still)) {
+        bad = std::move(still);
+        continue;
+      }
+    }
     for (Index slot : slots) {
       if (std::binary_search(changed.begin(), changed.end(), slot)) continue;
       caps.emplace_back(

@@ -13,6 +13,7 @@ namespace camber {
 struct LadderResult {
   std::vector<Index> mended;            // first cells of groups mended by moving volume nodes only
   std::size_t load_steps = 0;           // of groups that needed them
+  std::size_t elastic_patches = 0;      // elastic solves around bad cells that were kept
   std::size_t wall_faces_smoothed = 0;  // faces whose nodes slid along the CAD
   std::vector<Index> lowered_faces;     // wall face slots whose shape was lowered below their order
   RescueResult scaled;                  // the last rung
@@ -25,13 +26,15 @@ using Carry =
     std::function<std::vector<Index>(CurvedMesh& curved, const std::vector<Index>& cells)>;
 
 /// Climbs only as far as needed, for the cells that are not certified:
-/// (Pinched cells start at 3.)
+/// (Pinched cells start at 4.)
 ///   1. volume nodes of the group and its rings are moved (smooth/patch.hpp); the wall stays as it
 ///   is
 ///   2. wall faces under what is left are smoothed along the CAD, once each (wall_repair.hpp)
-///   3. wall faces under what is left get one order less of shape, and their columns are carried
+///   3. once, where no wall face could be smoothed: an elastic solve over the rings around what is
+///   left
+///   4. wall faces under what is left get one order less of shape, and their columns are carried
 ///   again
-///   4. displacements are scaled back until certified (elevate/rescue.hpp); this always ends
+///   5. displacements are scaled back until certified (elevate/rescue.hpp); this always ends
 LadderResult climb(CurvedMesh& curved, const Association& association, const GeometryModel& model,
                    Placement& placement, const Carry& carry, const Wall& wall,
                    const Columns& columns, const std::vector<Index>& pinched,

@@ -1,6 +1,7 @@
 #pragma once
 #include <camber/associate/by_tags.hpp>
 #include <camber/elevate/order_rules.hpp>
+#include <camber/io/meshlink/meshlink.hpp>
 
 #include <map>
 #include <string>
@@ -22,6 +23,14 @@ enum class Smoothing {
   none
 };
 
+/// What links the mesh to the CAD.
+enum class LinkBy {
+  automatic,  // tags if they fit the CAD, else shape (default)
+  tags,
+  shape,  // place and shape alone, tags or not
+  file    // CurveOptions::mesh_link
+};
+
 /// Everything a run of curve() depends on besides its files.
 struct CurveOptions {
   OrderOptions orders;   // --order, --min-order, --deviation, --deviation-length
@@ -29,10 +38,12 @@ struct CurveOptions {
   Propagation propagation = Propagation::layer;
   LayerFieldOptions layer;
   Smoothing smoothing = Smoothing::automatic;
-  double polish_below = 0.6;   // cells with a lower cost C are polished by Smoothing::automatic
-  double quality = 0.95;       // --quality: cost C that every cell should have (paper's threshold)
-  double scale = 0.0;          // --unit: mesh length per CAD length (read as mm); 0: found
-  TagOptions association;      // --patch
+  double polish_below = 0.6;  // cells with a lower cost C are polished by Smoothing::automatic
+  double quality = 0.95;      // --quality: cost C that every cell should have (paper's threshold)
+  double scale = 0.0;         // --unit: mesh length per CAD length (read as mm); 0: found
+  TagOptions association;     // --patch
+  LinkBy link_by = LinkBy::automatic;
+  io::MeshLink mesh_link;      // --link FILE
   bool fit = false;            // slide wall nodes until the faces follow the CAD best
   bool split_pinched = false;  // cut cells that no curved wall can leave valid from their centre
   bool allow_invalid = false;  // write even if something is not certified

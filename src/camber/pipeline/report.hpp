@@ -59,6 +59,15 @@ struct Report {
     std::map<Shape, std::map<int, std::size_t>> cells_by_shape_and_order;
     std::size_t nodes = 0;
   } output;
+  struct {  // how the mesh was linked to the CAD; only the first two and the last for tags
+    std::string method, reason;         // "tags", "shape" or "file"; why not by tags
+    std::size_t faces = 0, on_cad = 0;  // boundary faces; of these on CAD faces
+    std::size_t straddling = 0;         // across CAD edges: on a group of several faces
+    std::size_t off_cad = 0;            // nodes on the CAD, the face not: left straight
+    std::vector<std::string> unsure;    // patches with a second choice nearly as good
+    std::vector<std::string> cad_without_mesh;
+    double largest_distance = 0.0;  // of a linked vertex to its CAD entity
+  } link;
   struct {
     std::size_t certified = 0, invalid = 0, undecided = 0;
     double min_scaled_jacobian = 1.0, min_jacobian_ratio = 1.0;
@@ -88,6 +97,7 @@ struct Report {
   } wall_spacing;
   struct {
     std::size_t faces_smoothed = 0;    // wall faces whose nodes slid along the CAD
+    std::size_t elastic_patches = 0;   // elastic solves around cells that nothing else mended
     std::size_t elastic_products = 0;  // of the linear solve that replaced a tangled start
     std::size_t load_steps = 0, patches = 0, orders_lowered = 0, scaled_back = 0;
     std::size_t put_back = 0;  // cells that smoothing made worse than any was: as before it

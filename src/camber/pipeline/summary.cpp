@@ -251,6 +251,7 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
   report.rescue.pinched = ladder.pinched.size();
   report.rescue.patches = ladder.mended.size();
   report.rescue.load_steps = ladder.load_steps;
+  report.rescue.elastic_patches = ladder.elastic_patches;
   for (Index c : ladder.mended) {
     report.rescue.mended.push_back({mesh.cell_tags[at(c)], mesh.cell_shape[at(c)],
                                     centre_of(mesh, c), 0.0,

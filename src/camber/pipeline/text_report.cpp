@@ -123,6 +123,25 @@ void add_validity(const Report& report, std::string& out) {
   if (!v.worst.empty()) out += table.text();
 }
 
+/// Only what was found by shape needs telling.
+void add_link(const Report& report, std::string& out) {
+  const auto& link = report.link;
+  if (link.method != "shape") return;
+  out += "\nLink to the CAD: found by shape\n";
+  if (!link.reason.empty()) out += fmt::format("  why not by tags: {}\n", link.reason);
+  out += fmt::format("  {} of {} boundary faces on the CAD, {} of them across CAD edges\n",
+                     link.on_cad, link.faces, link.straddling);
+  if (link.off_cad > 0) {
+    out += fmt::format("  {} faces with all nodes near the CAD lie on none of its faces\n",
+                       link.off_cad);
+  }
+  out += fmt::format("  largest distance of a linked vertex {:.3g}\n", link.largest_distance);
+  if (!link.unsure.empty()) out += wrapped("  not sure of:", link.unsure);
+  if (!link.cad_without_mesh.empty()) {
+    out += wrapped("  CAD faces without mesh:", link.cad_without_mesh);
+  }
+}
+
 /// The paper's Tables 1 and 2, with the linear mesh beside.
 void add_surface(const Report& report, std::string& out) {
   const auto& s = report.surface;
@@ -289,6 +308,7 @@ std::string text_report(const Report& report) {
   std::string out;
   add_head(report, out);
   add_cells(report, out);
+  add_link(report, out);
   add_surface(report, out);
   add_validity(report, out);
   add_conformity(report, out);

@@ -1,9 +1,16 @@
+#include <camber/smooth/detail/cell_groups.hpp>
 #include <camber/smooth/detail/group_solver.hpp>
 #include <camber/smooth/elastic.hpp>
 
 #include <cmath>
 
 namespace camber {
+namespace {
+
+/// Cells from which on a region grows no further ring.
+constexpr std::size_t k_enough_around = 10000;
+
+}  // namespace
 
 ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
                             const std::vector<std::uint8_t>& is_free,
@@ -36,6 +43,17 @@ ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
   result.residual = first > 0.0 ? std::sqrt(rz / first) : 0.0;
   energy.store(energy.positions(straight) + u, curved);
   return result;
+}
+
+ElasticResult relax_elastic_around(CurvedMesh& curved, const std::vector<Index>& core, int rings,
+                                   const std::vector<std::uint8_t>& is_free,
+                                   const ElasticOptions& options) {
+  std::vector<Index> grown = core;
+  for (int ring = 0; ring < rings && grown.size() < k_enough_around; ++ring) {
+    grown = detail::neighbours(curved.topology(), grown);
+  }
+  return relax_elastic(curved, detail::curved_neighbours(curved, grown),
+                       detail::nodes_of(curved, grown, is_free), options);
 }
 
 }  // namespace camber

@@ -28,4 +28,10 @@ ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
                             const std::vector<std::uint8_t>& is_free,
                             const ElasticOptions& options = {});
 
+/// The same around some cells only: nodes of the cells within `rings` of them move, all others
+/// stay.
+ElasticResult relax_elastic_around(CurvedMesh& curved, const std::vector<Index>& core, int rings,
+                                   const std::vector<std::uint8_t>& is_free,
+                                   const ElasticOptions& options = {});
+
 }  // namespace camber

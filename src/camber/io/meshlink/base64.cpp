@@ -1,0 +1,67 @@
+#include <camber/io/meshlink/base64.hpp>
+
+#include <array>
+
+namespace camber::io {
+namespace {
+
+constexpr std::string_view k_digits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+}  // namespace
+
+std::optional<std::vector<std::int32_t>> decode_base64(std::string_view text) {
+  std::vector<std::uint8_t> bytes;
+  std::uint32_t bits = 0;
+  int count = 0;  // of the bits held
+  std::size_t digits = 0, padding = 0;
+  for (char c : text) {
+    if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
+    if (c == '=') {
+      ++padding;
+      continue;
+    }
+    const std::size_t value = k_digits.find(c);
+    if (value == std::string_view::npos || padding > 0) return {};
+    ++digits;
+    bits = (bits << 6) | static_cast<std::uint32_t>(value);
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes.push_back(static_cast<std::uint8_t>((bits >> count) & 0xffu));
+  }
+  if ((digits + padding) % 4 != 0 || padding > 2 || bytes.size() % 4 != 0) return {};
+  std::vector<std::int32_t> values;
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
+    std::uint32_t value = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      value |= static_cast<std::uint32_t>(bytes[i + k]) << (8 * k);
+    }
+    values.push_back(static_cast<std::int32_t>(value));
+  }
+  return values;
+}
+
+std::string encode_base64(const std::vector<std::int32_t>& values) {
+  std::string text;
+  std::array<std::uint32_t, 3> group{};
+  std::size_t held = 0;
+  const auto flush = [&] {
+    const std::uint32_t bits = group[0] << 16 | group[1] << 8 | group[2];
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= held ? k_digits[(bits >> (18 - 6 * k)) & 63u] : '=';
+    }
+    group = {};
+    held = 0;
+  };
+  for (std::int32_t value : values) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      group[held++] = (static_cast<std::uint32_t>(value) >> (8 * k)) & 0xffu;
+      if (held == 3) flush();
+    }
+  }
+  if (held > 0) flush();
+  return text;
+}
+
+}  // namespace camber::io
