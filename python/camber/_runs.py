@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Callable, Dict, Mapping, Optional, Union
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -154,10 +154,11 @@ def curve(mesh: Mesh, geometry: Geometry, *, order: int = 4, min_order: int = 1,
           deviation: float = 0.01, deviation_length: Union[str, float] = "face",
           uniform: bool = False, propagate: str = "layer", smooth: str = "auto",
           quality: Optional[float] = None, unit: str = "auto",
-          patches: Optional[Mapping[str, str]] = None, fit: bool = False,
+          link: Path = "auto",
+          patches: Optional[Mapping[str, Union[str, Sequence[str]]]] = None, fit: bool = False,
           split_pinched: bool = False, strict: bool = False, threads: int = 0,
           progress: Optional[ProgressCallback] = None) -> Result:
-    """Curves a linear mesh onto the CAD that its surface tags refer to.
+    """Curves a linear mesh onto its CAD.
 
     The options are those of `camber curve --help`.
 
@@ -171,7 +172,10 @@ def curve(mesh: Mesh, geometry: Geometry, *, order: int = 4, min_order: int = 1,
         smooth: "auto", "marching" or "none".
         quality: cost that smoothing aims at.
         unit: of the mesh: "auto", "m", "mm" or "in".
-        patches: {name or number: "free", "fixed", "plane" or "wall"}.
+        link: what links mesh and CAD: "tags", "shape", "auto" (tags if they fit, else shape) or a
+            MeshLink file (.xml).
+        patches: {name or number: "free", "fixed", "plane" or "wall"}, or a list of the CAD faces
+            that the patch may lie on (with the link "shape").
         fit: slide wall nodes until the faces follow the CAD as closely as their order can.
         split_pinched: cut cells that no curving can leave valid.
         strict: faces over the deviation count as failure in the report.
@@ -188,7 +192,7 @@ def curve(mesh: Mesh, geometry: Geometry, *, order: int = 4, min_order: int = 1,
     options: Dict[str, object] = {
         "order": order, "min_order": min_order, "uniform": uniform, "deviation": deviation,
         "deviation_length": deviation_length, "propagate": propagate, "smooth": smooth,
-        "quality": quality, "unit": unit, "patches": dict(patches or {}), "fit": fit,
+        "quality": quality, "unit": unit, "link": os.fspath(link), "patches": dict(patches or {}), "fit": fit,
         "split_pinched": split_pinched, "strict": strict}
     return Result(_camber.curve(native(mesh), geometry._model, options, threads, progress))
 

@@ -7,7 +7,6 @@
 #include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/text_report.hpp>
 
-#include <map>
 #include <pybind11/stl.h>
 #include <utility>
 
@@ -53,6 +52,34 @@ void set_deviation_length(const std::string& text, CurveOptions& options) {
       "deviation_length", text, {{"face", DeviationLength::face}, {"cell", DeviationLength::cell}});
 }
 
+/// A rule by its name, or the CAD faces that the patch may lie on.
+void set_patches(const py::dict& patches, TagOptions& association) {
+  for (const auto& [key, value] : patches) {
+    const auto patch = py::str(key).cast<std::string>();
+    if (!py::isinstance<py::str>(value)) {
+      association.faces[patch] = value.cast<std::vector<std::string>>();
+      continue;
+    }
+    association.patches[patch] = choice<PatchRule>("patches", value.cast<std::string>(),
+                                                   {{"free", PatchRule::free},
+                                                    {"fixed", PatchRule::fixed},
+                                                    {"plane", PatchRule::plane},
+                                                    {"wall", PatchRule::wall}});
+  }
+}
+
+/// One of the three ways to find the link, or the MeshLink file that states it.
+void set_link(const std::string& text, CurveOptions& options) {
+  if (text.ends_with(".xml")) {
+    options.link_by = LinkBy::file;
+    options.mesh_link = io::read_meshlink(text);
+    return;
+  }
+  options.link_by = choice<LinkBy>(
+      "link", text,
+      {{"auto", LinkBy::automatic}, {"tags", LinkBy::tags}, {"shape", LinkBy::shape}});
+}
+
 CurveOptions make_options(const py::dict& given) {
   CurveOptions options;
   const auto text = [&](const char* key) { return given[key].cast<std::string>(); };
@@ -80,13 +107,8 @@ CurveOptions make_options(const py::dict& given) {
     options.polish_below = options.quality;
   }
   options.scale = scale_of(text("unit"));
-  for (const auto& [patch, rule] : given["patches"].cast<std::map<std::string, std::string>>()) {
-    options.association.patches[patch] = choice<PatchRule>("patches", rule,
-                                                           {{"free", PatchRule::free},
-                                                            {"fixed", PatchRule::fixed},
-                                                            {"plane", PatchRule::plane},
-                                                            {"wall", PatchRule::wall}});
-  }
+  set_patches(given["patches"].cast<py::dict>(), options.association);
+  set_link(text("link"), options);
   options.fit = yes("fit");
   options.split_pinched = yes("split_pinched");
   options.strict = yes("strict");

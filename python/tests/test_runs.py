@@ -56,11 +56,24 @@ def test_options_reach_the_run(ball):
 @pytest.mark.parametrize("options", [
     {"order": 7}, {"order": 2, "min_order": 3}, {"deviation": 0.0}, {"deviation_length": "foot"},
     {"deviation_length": -1.0}, {"propagate": "far"}, {"smooth": "more"}, {"quality": 2.0},
-    {"unit": "furlong"}, {"patches": {"ball": "sticky"}}, {"patches": {"nowhere": "free"}}])
+    {"unit": "furlong"}, {"link": "guess"}, {"patches": {"ball": "sticky"}}, {"patches": {"nowhere": "free"}}])
 def test_wrong_options_are_named(ball, options):
     with pytest.raises(camber.OptionError) as caught:
         camber.curve(ball.mesh, ball.geometry, **options)
     assert caught.value.what and caught.value.where and caught.value.remedy
+
+
+@pytest.mark.parametrize("link", ["tags", "shape"])
+def test_the_link_can_be_the_tags_or_the_shape(ball, curved, link):
+    result = camber.curve(ball.mesh, ball.geometry, order=3, link=link)
+    assert result.is_certified
+    assert np.array_equal(result.orders, curved.orders)
+
+
+def test_a_patch_can_name_its_cad_faces(ball):
+    result = camber.curve(ball.mesh, ball.geometry, order=2, link="shape",
+                          patches={"ball": ["face_1"]})
+    assert result.is_certified and result.orders.max() == 2
 
 
 def test_a_missing_file_says_what_where_and_what_to_do():
