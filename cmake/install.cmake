@@ -26,3 +26,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/CamberConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/CamberConfig.cmake ${PROJECT_BINARY_DIR}/CamberConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Camber)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})

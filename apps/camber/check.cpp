@@ -56,8 +56,8 @@ int run(const CheckFlags& flags) {
 
 Verb add_check(CLI::App& app) {
   const auto flags = std::make_shared<CheckFlags>();
-  CLI::App* verb = app.add_subcommand(
-      "check", "certificates, quality, gaps and surface error of any linear or curved mesh");
+  CLI::App* verb =
+      app.add_subcommand("check", "certificates, quality, gaps and surface error of any mesh");
   verb->add_option("mesh", flags->mesh, "mesh to check (.msh)")->required()->type_name("MESH");
   verb->add_option("-g,--geometry", flags->geometry,
                    "CAD that its surface tags refer to (.step .iges .brep); default: none")

@@ -15,6 +15,7 @@ import sys
 LONGEST = 800
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SOURCES = (".hpp", ".cpp", ".h", ".cc")
+PROGRAMS = ("apps", "python")  # stand on the library; their headers are nobody else's
 
 
 class Arrows:
@@ -86,7 +87,7 @@ def check_third_party(where, module, is_public, header, arrows):
 
 def check_source(path, root, module, arrows):
     faults = []
-    is_public = path.suffix == ".hpp" and "detail" not in path.parts and module != "apps"
+    is_public = path.suffix == ".hpp" and "detail" not in path.parts and module not in PROGRAMS
     for number, bracket, header in includes(path):
         where = f"{path.relative_to(root)}:{number}"
         if header.startswith("camber/"):
@@ -95,7 +96,7 @@ def check_source(path, root, module, arrows):
             faults.append(f'{where}: write <camber/...> instead of "{header}"')
         else:
             faults += check_third_party(where, module, is_public, header, arrows)
-    if module != "apps":
+    if module not in PROGRAMS:
         faults += check_forbidden(path, root, arrows)
     return faults
 
@@ -143,7 +144,7 @@ def check(root, arrows_path):
     faults = list(arrows.faults)
     places = [(folder, folder.name) for folder in sorted((root / "src/camber").iterdir())
               if folder.is_dir()]
-    places.append((root / "apps", "apps"))
+    places += [(root / "apps", "apps"), (root / "python", "python")]
     for folder, module in places:
         sources = [p for p in sorted(folder.rglob("*")) if p.suffix in SOURCES]
         if sources and module not in arrows.modules:
@@ -152,7 +153,7 @@ def check(root, arrows_path):
         for path in sources:
             faults += check_source(path, root, module, arrows)
         for path in sorted(folder.rglob("CMakeLists.txt")):
-            faults += check_links(path, root, module, arrows) if module != "apps" else []
+            faults += check_links(path, root, module, arrows) if module not in PROGRAMS else []
     faults += header_cycles(root)
     for top in ("src", "apps", "tests", "bench", "tools", "examples", "python"):
         for path in sorted((root / top).rglob("*")):

@@ -1,0 +1,260 @@
+// CAD files, curve() and check().
+#include <camber/associate/cad_scale.hpp>
+#include <camber/base/error.hpp>
+#include <camber/base/parallel.hpp>
+#include <camber/geom_occ/cad_file.hpp>
+#include <camber/pipeline/check.hpp>
+#include <camber/pipeline/curve.hpp>
+#include <camber/pipeline/text_report.hpp>
+
+#include <pybind11/stl.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bindings.hpp"
+
+namespace camber::python {
+namespace {
+
+/// A result with the options it was made with, which say how it is exported.
+struct Run {
+  CurveResult result;
+  CurveOptions options;
+
+  [[nodiscard]] bool is_certified() const {
+    return result.report.validity.invalid + result.report.validity.undecided == 0;
+  }
+};
+
+/// Mesh length per CAD length, which is read in millimetres; 0: found.
+double scale_of(const std::string& unit) {
+  for (const auto& [known, scale] :
+       {std::pair{"auto", 0.0}, {"mm", 1.0}, {"m", 1e-3}, {"in", 1.0 / 25.4}}) {
+    if (unit == known) return scale;
+  }
+  throw OptionError(fmt::format("'{}' is no known unit", unit), "unit", "give auto, m, mm or in");
+}
+
+template <class Value>
+Value choice(const char* option, const std::string& text,
+             std::initializer_list<std::pair<const char*, Value>> choices) {
+  std::string all;
+  for (const auto& [known, value] : choices) {
+    if (text == known) return value;
+    all += fmt::format("{}{}", all.empty() ? "" : ", ", known);
+  }
+  throw OptionError(fmt::format("'{}' is no choice", text), option, "give one of " + all);
+}
+
+void set_deviation_length(const std::string& text, CurveOptions& options) {
+  options.orders.deviation_length = choice<DeviationLength>(
+      "deviation_length", text, {{"face", DeviationLength::face}, {"cell", DeviationLength::cell}});
+}
+
+/// A rule by its name, or the CAD faces that the patch may lie on.
+void set_patches(const py::dict& patches, TagOptions& association) {
+  for (const auto& [key, value] : patches) {
+    const auto patch = py::str(key).cast<std::string>();
+    if (!py::isinstance<py::str>(value)) {
+      association.faces[patch] = value.cast<std::vector<std::string>>();
+      continue;
+    }
+    association.patches[patch] = choice<PatchRule>("patches", value.cast<std::string>(),
+                                                   {{"free", PatchRule::free},
+                                                    {"fixed", PatchRule::fixed},
+                                                    {"plane", PatchRule::plane},
+                                                    {"wall", PatchRule::wall}});
+  }
+}
+
+/// One of the three ways to find the link, or the MeshLink file that states it.
+void set_link(const std::string& text, CurveOptions& options) {
+  if (text.ends_with(".xml")) {
+    options.link_by = LinkBy::file;
+    options.mesh_link = io::read_meshlink(text);
+    return;
+  }
+  options.link_by = choice<LinkBy>(
+      "link", text,
+      {{"auto", LinkBy::automatic}, {"tags", LinkBy::tags}, {"shape", LinkBy::shape}});
+}
+
+CurveOptions make_options(const py::dict& given) {
+  CurveOptions options;
+  const auto text = [&](const char* key) { return given[key].cast<std::string>(); };
+  const auto yes = [&](const char* key) { return given[key].cast<bool>(); };
+  options.orders.max_order = given["order"].cast<int>();
+  options.orders.min_order = given["min_order"].cast<int>();
+  options.orders.deviation = given["deviation"].cast<double>();
+  if (py::isinstance<py::str>(given["deviation_length"])) {
+    set_deviation_length(text("deviation_length"), options);
+  } else {
+    options.orders.deviation_length = DeviationLength::given;
+    options.orders.length = given["deviation_length"].cast<double>();
+  }
+  options.uniform = yes("uniform");
+  options.propagation = choice<Propagation>("propagate", text("propagate"),
+                                            {{"layer", Propagation::layer},
+                                             {"elastic", Propagation::elastic},
+                                             {"cell", Propagation::cell}});
+  options.smoothing = choice<Smoothing>("smooth", text("smooth"),
+                                        {{"auto", Smoothing::automatic},
+                                         {"marching", Smoothing::marching},
+                                         {"none", Smoothing::none}});
+  if (!given["quality"].is_none()) {
+    options.quality = given["quality"].cast<double>();
+    options.polish_below = options.quality;
+  }
+  options.scale = scale_of(text("unit"));
+  set_patches(given["patches"].cast<py::dict>(), options.association);
+  set_link(text("link"), options);
+  options.fit = yes("fit");
+  options.split_pinched = yes("split_pinched");
+  options.strict = yes("strict");
+  return options;
+}
+
+std::vector<std::pair<std::string, std::string>> shown(const py::dict& given) {
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const auto& [key, value] : given) {
+    list.emplace_back(key.cast<std::string>(), py::str(value).cast<std::string>());
+  }
+  return list;
+}
+
+std::shared_ptr<Run> curve_mesh(const MeshData& mesh, Geometry& geometry, const py::dict& given,
+                                int threads, const py::object& callback) {
+  auto run = std::make_shared<Run>();
+  run->options = make_options(given);
+  PythonProgress python(callback);
+  bool is_cancelled = false;
+  {
+    const py::gil_scoped_release no_gil;
+    const std::scoped_lock turn(geometry.turn);
+    const ThreadLimit limit(threads);
+    geometry.model->set_scale(1.0);  // as read, whatever an earlier run found
+    try {
+      run->result = curve(mesh, *geometry.model, run->options, python.progress());
+    } catch (const Cancelled&) {
+      is_cancelled = true;
+    }
+  }
+  if (is_cancelled) python.rethrow();
+  run->result.report.input.mesh = mesh.source;
+  run->result.report.input.geometry = {geometry.path};
+  run->result.report.options = shown(given);
+  return run;
+}
+
+Report check_mesh(const MeshData& mesh, Geometry* geometry, const CheckOptions& options,
+                  double scale) {
+  if (!geometry) return check(mesh, nullptr, options);
+  const std::scoped_lock turn(geometry->turn);
+  geometry->model->set_scale(1.0);
+  fit_cad_scale(mesh, *geometry->model, scale);
+  Report report = check(mesh, geometry->model.get(), options);
+  report.input.geometry = {geometry->path};
+  return report;
+}
+
+void bind_geometry(py::module_& module) {
+  py::class_<Geometry, std::shared_ptr<Geometry>>(module, "GeometryModel")
+      .def(py::init([](const std::string& path) {
+             auto geometry = std::make_shared<Geometry>();
+             geometry->path = path;
+             geometry->model = read_cad(path);
+             return geometry;
+           }),
+           py::call_guard<py::gil_scoped_release>(), py::arg("path"))
+      .def_readonly("path", &Geometry::path)
+      .def(
+          "count",
+          [](const Geometry& self, int dim) {
+            if (dim < 0 || dim > 2) {
+              throw GeometryError(fmt::format("there are no entities of dimension {}", dim),
+                                  self.path, "give 0 (vertices), 1 (curves) or 2 (faces)");
+            }
+            return self.model->count(dim);
+          },
+          py::arg("dim"))
+      .def(
+          "name",
+          [](const Geometry& self, int dim, int tag) {
+            if (dim < 0 || dim > 2 || tag < 1 || tag > self.model->count(dim)) {
+              throw GeometryError(fmt::format("there is no entity ({}, {})", dim, tag), self.path,
+                                  "tags count from 1 to count(dim), dimensions are 0 to 2");
+            }
+            return self.model->name({dim, tag});
+          },
+          py::arg("dim"), py::arg("tag"));
+}
+
+void bind_result(py::module_& module) {
+  py::class_<Run, std::shared_ptr<Run>>(module, "Run")
+      .def_property_readonly("is_certified", &Run::is_certified)
+      .def_property_readonly("report", [](const Run& self) { return self.result.report; })
+      .def_property_readonly("vertices",
+                             [](const py::object& self) {
+                               const Points& points = self.cast<Run&>().result.linear->vertices;
+                               return view_of(points.data(), points.size(), self, false);
+                             })
+      .def_property_readonly(
+          "high_order_nodes",
+          [](const py::object& self) {
+            const auto nodes = std::as_const(*self.cast<Run&>().result.curved).high_order_nodes();
+            return view_of(nodes.data(), nodes.size(), self, false);
+          })
+      .def_property_readonly("cell_orders",
+                             [](const py::object& self) {
+                               return view_of(self.cast<Run&>().result.curved->orders().cell, self);
+                             })
+      .def_property_readonly("cell_tags",
+                             [](const py::object& self) {
+                               return view_of(self.cast<Run&>().result.linear->cell_tags, self);
+                             })
+      .def_property_readonly(
+          "cell_bounds",
+          [](const py::object& self) { return view_of(self.cast<Run&>().result.cell_bound, self); })
+      .def_property_readonly(
+          "cell_costs",
+          [](const py::object& self) { return view_of(self.cast<Run&>().result.cell_cost, self); })
+      .def_property_readonly("face_deviations",
+                             [](const py::object& self) {
+                               return view_of(self.cast<Run&>().result.face_deviation, self);
+                             })
+      .def(
+          "exported",
+          [](const Run& self) {
+            return std::make_shared<MeshData>(exported(self.result, self.options));
+          },
+          py::call_guard<py::gil_scoped_release>());
+}
+
+}  // namespace
+
+void bind_runs(py::module_& module) {
+  bind_geometry(module);
+  py::class_<Report>(module, "Report")
+      .def_readonly("status", &Report::status)
+      .def_readonly("exit_code", &Report::exit_code)
+      .def("text", &text_report)
+      .def("json", &json_report);
+  bind_result(module);
+  module.def("curve", &curve_mesh, py::arg("mesh"), py::arg("geometry"), py::arg("options"),
+             py::arg("threads"), py::arg("progress"));
+  module.def(
+      "check",
+      [](const MeshData& mesh, Geometry* geometry, double deviation, bool with_quality, bool strict,
+         const std::string& unit) {
+        CheckOptions options;
+        options.deviation = deviation;
+        options.with_quality = with_quality;
+        options.strict = strict;
+        return check_mesh(mesh, geometry, options, scale_of(unit));
+      },
+      py::call_guard<py::gil_scoped_release>(), py::arg("mesh"), py::arg("geometry").none(true),
+      py::arg("deviation"), py::arg("quality"), py::arg("strict"), py::arg("unit"));
+}
+
+}  // namespace camber::python
