@@ -1,14 +1,21 @@
 #include <camber/base/error.hpp>
+#include <camber/io/cgns/cgns_reader.hpp>
+#include <camber/io/cgns/cgns_writer.hpp>
+#include <camber/io/detail/input_file.hpp>
+#include <camber/io/detail/named_mesh.hpp>
+#include <camber/io/detail/output_file.hpp>
 #include <camber/io/detail/temporary_file.hpp>
 #include <camber/io/gmsh/gmsh_reader.hpp>
 #include <camber/io/gmsh/gmsh_writer.hpp>
 #include <camber/io/mesh_file.hpp>
+#include <camber/io/su2/su2_reader.hpp>
+#include <camber/io/su2/su2_writer.hpp>
+#include <camber/io/ugrid/ugrid_layout.hpp>
+#include <camber/io/ugrid/ugrid_reader.hpp>
+#include <camber/io/ugrid/ugrid_writer.hpp>
 #include <camber/io/vtu/vtu_writer.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <new>
 
 namespace camber::io {
@@ -17,15 +24,7 @@ namespace {
 constexpr double k_version_slack = 1e-6;  // versions are decimal fractions
 
 Format format_of(const std::string& path, Format wanted) {
-  if (wanted != Format::automatic) return wanted;
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".msh") return Format::gmsh;
-  if (extension == ".vtu") return Format::vtu;
-  throw FileError(extension.empty() ? "the name has no extension that tells its format"
-                                    : "unknown extension '" + extension + "'",
-                  path, "use .msh (Gmsh) or .vtu (VTK, writing only)");
+  return wanted == Format::automatic ? format_by_name(path) : wanted;
 }
 
 void check_version(const std::string& path, const WriteOptions& options) {
@@ -36,9 +35,28 @@ void check_version(const std::string& path, const WriteOptions& options) {
                   "choose version 4.1 or 2.2");
 }
 
-MeshData read_back(const std::string& temporary, const std::string& path) {
+MeshData read_as(Format format, const std::string& path) {
+  switch (format) {
+    case Format::gmsh:
+      return read_gmsh(path);
+    case Format::cgns:
+      return read_cgns(path);
+    case Format::su2:
+      return read_su2(path);
+    case Format::ugrid:
+      return read_ugrid(path);
+    case Format::vtu:
+    case Format::automatic:
+      break;
+  }
+  throw FileError("VTK files can only be written", path, "read the .msh file of the mesh");
+}
+
+/// Errors of the reader as errors of the writer.
+template <class Read>
+MeshData read_back(const std::string& path, const Read& read) {
   try {
-    MeshData mesh = read_gmsh(temporary);
+    MeshData mesh = read();
     mesh.source = path;
     return mesh;
   } catch (const FileError& error) {
@@ -47,21 +65,68 @@ MeshData read_back(const std::string& temporary, const std::string& path) {
   }
 }
 
+/// What a writer without high orders cannot take.
+void require_order(const MeshData& mesh, const FormatInfo& info, const std::string& path) {
+  for (const ElementBlock& block : mesh.blocks) {
+    if (block.order <= info.highest_order || block.nodes.empty() || dimension(block.shape) < 2)
+      continue;
+    throw FileError(std::string(info.title) + " files hold elements of order " +
+                        std::to_string(info.highest_order) + " only, the mesh is of order " +
+                        std::to_string(block.order),
+                    path, "write another format, or the corners only: camber convert --order 1");
+  }
+}
+
+NameRules name_rules(Format format) {
+  if (format == Format::cgns) return cgns_name_rules();
+  return format == Format::su2 ? su2_name_rules() : ugrid_name_rules();
+}
+
+/// Formats that know entities by name only.
+void write_named(const MeshData& mesh, const std::string& path, Format format,
+                 const WriteOptions& options, const std::function<void(const MeshData&)>& verify) {
+  const NamedMesh named = by_names(mesh, name_rules(format));
+  write_atomically(
+      path,
+      [&](const std::string& temporary) {
+        if (format == Format::cgns) write_cgns(named, temporary, options.geometry, path);
+        if (format == Format::su2) write_su2(named, temporary, path);
+        if (format == Format::ugrid) write_ugrid(named, temporary, path);
+      },
+      [&](const std::string& temporary) {
+        const MeshData read = read_back(path, [&] {
+          if (format != Format::ugrid) return read_as(format, temporary);
+          return parse_ugrid(path, InputFile(temporary).text(), mapbc_text(named));
+        });
+        const MeshData written = relabel(mesh, named, read);
+        if (verify) verify(written);
+      });
+  if (format != Format::ugrid) return;
+  write_atomically(ugrid::mapbc_path(path), [&](const std::string& temporary) {
+    OutputFile out(temporary, ugrid::mapbc_path(path));
+    out.append(mapbc_text(named));
+    out.finish();
+  });
+}
+
 }  // namespace
 
 MeshData read_mesh(const std::string& path, const ReadOptions& options) {
-  if (format_of(path, options.format) == Format::vtu) {
-    throw FileError("VTK files can only be written", path, "read the .msh file of the mesh");
-  }
+  const Format format = format_of(path, options.format);
   try {
-    return read_gmsh(path);
+    return read_as(format, path);
   } catch (const std::bad_alloc&) {
     throw FileError("the mesh does not fit into memory", path, "use a machine with more memory");
   }
 }
 
 void check_writable(const std::string& path, const WriteOptions& options) {
-  if (format_of(path, options.format) == Format::gmsh) check_version(path, options);
+  const Format format = format_of(path, options.format);
+  if (format == Format::gmsh) check_version(path, options);
+  if (format == Format::ugrid) {
+    static_cast<void>(ugrid::layout_of(path));
+    static_cast<void>(writable_target(ugrid::mapbc_path(path)));
+  }
   static_cast<void>(writable_target(path));
 }
 
@@ -88,11 +153,17 @@ void write_mesh(const MeshData& mesh, const std::string& path, const WriteOption
         [&](const std::string& temporary) { check_vtu(temporary, summary, path); });
     return;
   }
+  const Format format = format_of(path, options.format);
+  if (format != Format::gmsh) {
+    require_order(mesh, format_info(format), path);
+    write_named(mesh, path, format, options, verify);
+    return;
+  }
   const GmshWriteOptions gmsh{.binary = options.binary, .version = options.gmsh_version};
   write_atomically(
       path, [&](const std::string& temporary) { write_gmsh(mesh, temporary, gmsh, path); },
       [&](const std::string& temporary) {
-        const MeshData written = read_back(temporary, path);
+        const MeshData written = read_back(path, [&] { return read_gmsh(temporary); });
         if (written.points.size() != mesh.points.size() ||
             written.element_count() != mesh.element_count()) {
           throw FileError("what was written has other counts of nodes or elements than the mesh",

@@ -1,13 +1,12 @@
 #pragma once
 // Formats by extension, and safe writing.
+#include <camber/io/formats.hpp>
 #include <camber/mesh/mesh_data.hpp>
 
 #include <functional>
 #include <string>
 
 namespace camber::io {
-
-enum class Format { automatic, gmsh, vtu };
 
 struct ReadOptions {
   Format format = Format::automatic;
@@ -16,9 +15,10 @@ struct WriteOptions {
   Format format = Format::automatic;
   bool binary = true;
   double gmsh_version = 4.1;  // 4.1 or 2.2
+  std::string geometry = {};  // CAD file that a .cgns file refers to, "" for none
 };
 
-/// Reads a mesh file (.msh 4.1 and 2.2, ASCII and binary; linear or curved to order 4).
+/// Reads a mesh file of any format that formats() says can be read.
 /// @throws FileError naming path, line or byte offset, what was found and what was expected.
 [[nodiscard]] MeshData read_mesh(const std::string& path, const ReadOptions& options = {});
 
@@ -30,8 +30,10 @@ void check_writable(const std::string& path, const WriteOptions& options = {});
 /// exists, calls verify(what was read), then renames. On any failure the temporary is removed, the
 /// old file is untouched and a FileError is thrown; what verify throws passes through. A kill may
 /// leave the temporary ".NAME.XXXXXX.tmp" behind, never a damaged `path`.
-/// Points may come back sorted by entity; elements keep their order (see gmsh_writer.hpp). A .vtu
-/// file is compared byte by byte with what was meant, and verify is not called.
+/// Points may come back sorted by entity; elements keep their order (see gmsh_writer.hpp). Formats
+/// that know patches by name only join entities of one name; verify gets the source mesh with the
+/// nodes as read back. A .vtu file is compared byte by byte with what was meant, and verify is not
+/// called.
 void write_mesh(const MeshData& mesh, const std::string& path, const WriteOptions& options = {},
                 const std::function<void(const MeshData&)>& verify = {});
 

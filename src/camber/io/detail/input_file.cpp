@@ -15,16 +15,19 @@ namespace {
 /// A system call may refuse more than 2 GiB at once.
 constexpr std::size_t k_read_chunk = std::size_t{1} << 30;
 
-}  // namespace
-
-InputFile::InputFile(const std::string& path) {
-  // O_NONBLOCK: opening a pipe must not wait for a writer; it is refused below.
-  const FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (fd.value() < 0) {
+/// Opens without waiting: a pipe must not wait for a writer; it is refused afterwards.
+int open_for_reading(const std::string& path) {
+  const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (number < 0) {
     const int error = errno;
     throw FileError("cannot be opened: " + system_message(error), path,
                     error == ENOENT ? "check the name and the folder" : "");
   }
+  return number;
+}
+
+/// Size of a regular file with content; anything else is refused.
+std::size_t examined_size(const FileDescriptor& fd, const std::string& path) {
   struct stat status {};
   if (::fstat(fd.value(), &status) != 0) {
     throw FileError("cannot be examined: " + system_message(errno), path, "");
@@ -38,7 +41,19 @@ InputFile::InputFile(const std::string& path) {
   if (status.st_size == 0) {
     throw FileError("found an empty file, expected a mesh", path, "write it again");
   }
-  const auto expected = static_cast<std::size_t>(status.st_size);
+  return static_cast<std::size_t>(status.st_size);
+}
+
+}  // namespace
+
+void require_regular_file(const std::string& path) {
+  const FileDescriptor fd(open_for_reading(path));
+  static_cast<void>(examined_size(fd, path));
+}
+
+InputFile::InputFile(const std::string& path) {
+  const FileDescriptor fd(open_for_reading(path));
+  const std::size_t expected = examined_size(fd, path);
   try {
     bytes_ = std::make_unique_for_overwrite<char[]>(expected);
   } catch (const std::bad_alloc&) {

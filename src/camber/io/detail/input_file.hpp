@@ -21,4 +21,7 @@ class InputFile {
   std::size_t size_ = 0;
 };
 
+/// The checks of InputFile for a file that a library will open by its name. @throws FileError
+void require_regular_file(const std::string& path);
+
 }  // namespace camber::io

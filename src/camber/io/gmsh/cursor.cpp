@@ -147,6 +147,8 @@ void Cursor::end_line(const char* expected) {
   ++at_;
 }
 
+void Cursor::skip_line() { at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1; }
+
 bool Cursor::skip_past(std::string_view mark) {
   const std::size_t place = text_.find(mark, at_);
   if (place == std::string_view::npos) return false;

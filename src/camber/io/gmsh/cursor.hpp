@@ -54,6 +54,8 @@ class Cursor {
   [[nodiscard]] std::string quoted(const char* expected);
   /// Moves behind the next line feed; only blanks may stand before it.
   void end_line(const char* expected);
+  /// Moves to the start of the next line, or to the end of the file.
+  void skip_line();
   /// True at the end of the file, blanks aside.
   [[nodiscard]] bool at_end();
   /// Moves behind the next occurrence of `mark`; false (and no move) if there is none.
