@@ -58,7 +58,9 @@ Verb add_check(CLI::App& app) {
   const auto flags = std::make_shared<CheckFlags>();
   CLI::App* verb =
       app.add_subcommand("check", "certificates, quality, gaps and surface error of any mesh");
-  verb->add_option("mesh", flags->mesh, "mesh to check (.msh)")->required()->type_name("MESH");
+  verb->add_option("mesh", flags->mesh, "mesh to check (" + extensions(true) + ")")
+      ->required()
+      ->type_name("MESH");
   verb->add_option("-g,--geometry", flags->geometry,
                    "CAD that its surface tags refer to (.step .iges .brep); default: none")
       ->type_name("CAD")

@@ -89,8 +89,10 @@ Verb add_convert(CLI::App& app) {
   const auto flags = std::make_shared<ConvertFlags>();
   CLI::App* verb = app.add_subcommand(
       "convert", "another format, or the same polynomial shapes at a higher order");
-  verb->add_option("input", flags->input, "mesh to read (.msh)")->required()->type_name("IN");
-  verb->add_option("output", flags->output, "mesh to write (.msh or .vtu)")
+  verb->add_option("input", flags->input, "mesh to read (" + extensions(true) + ")")
+      ->required()
+      ->type_name("IN");
+  verb->add_option("output", flags->output, "mesh to write (" + extensions(false) + ")")
       ->required()
       ->type_name("OUT");
   CLI::Option* order =

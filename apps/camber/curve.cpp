@@ -102,8 +102,10 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
 /// Writes all outputs, each verified before it replaces anything. @return seconds spent verifying
 double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certified) {
   double verifying = 0.0;
+  io::WriteOptions writing = flags.format.writing();
+  writing.geometry = flags.geometry.front();
   for (const std::string& path : flags.outputs) {
-    io::write_mesh(mesh, path, flags.format.writing(), [&](const MeshData& read_back) {
+    io::write_mesh(mesh, path, writing, [&](const MeshData& read_back) {
       const Clock::time_point start = Clock::now();
       stop_if_interrupted();
       verify_written(mesh, read_back, is_certified);
@@ -214,14 +216,16 @@ void add_order_flags(CLI::App& verb, CurveFlags& flags) {
 Verb add_curve(CLI::App& app) {
   const auto flags = std::make_shared<CurveFlags>();
   CLI::App* verb = app.add_subcommand("curve", "curve a linear mesh onto its CAD");
-  verb->add_option("mesh", flags->mesh, "linear mesh (.msh)")->required()->type_name("MESH");
+  verb->add_option("mesh", flags->mesh, "linear mesh (" + extensions(true) + ")")
+      ->required()
+      ->type_name("MESH");
   verb->add_option("-g,--geometry", flags->geometry, "CAD file (.step .stp .iges .igs .brep)")
       ->required()
       ->type_name("CAD")
       ->expected(1)
       ->take_all();
   verb->add_option("-o,--output", flags->outputs,
-                   "curved mesh to write (.msh or .vtu); may be given several times")
+                   "curved mesh to write (" + extensions(false) + "); may be given several times")
       ->required()
       ->type_name("OUT")
       ->expected(1)

@@ -8,6 +8,34 @@
 #include "console.hpp"
 
 namespace camber::app {
+namespace {
+
+io::Format format_called(const std::string& name) {
+  for (const io::FormatInfo& info : io::formats()) {
+    if (info.name == name) return info.format;
+  }
+  return io::Format::automatic;
+}
+
+/// Names of the formats that can be read (or written).
+std::vector<std::string> format_names(bool reading) {
+  std::vector<std::string> names;
+  for (const io::FormatInfo& info : io::formats()) {
+    if (reading ? info.reads : info.writes) names.emplace_back(info.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string extensions(bool reading) {
+  std::string list;
+  for (const io::FormatInfo& info : io::formats()) {
+    if (!(reading ? info.reads : info.writes)) continue;
+    list += (list.empty() ? "" : " ") + std::string(info.extensions);
+  }
+  return list;
+}
 
 bool CommonFlags::shows_progress() const {
   return !is_quiet && !no_progress && stderr_is_terminal();
@@ -26,14 +54,11 @@ void add_common_flags(CLI::App& verb, CommonFlags& flags) {
                 "no progress line (it is only shown on a terminal)");
 }
 
-io::ReadOptions FormatFlags::reading() const {
-  return {.format = from.empty() ? io::Format::automatic : io::Format::gmsh};
-}
+io::ReadOptions FormatFlags::reading() const { return {.format = format_called(from)}; }
 
 io::WriteOptions FormatFlags::writing() const {
   io::WriteOptions options;
-  if (to == "msh") options.format = io::Format::gmsh;
-  if (to == "vtu") options.format = io::Format::vtu;
+  options.format = format_called(to);
   options.binary = !is_ascii;
   options.gmsh_version = msh_version == "2.2" ? 2.2 : 4.1;
   return options;
@@ -41,13 +66,13 @@ io::WriteOptions FormatFlags::writing() const {
 
 void add_from_flag(CLI::App& verb, FormatFlags& flags) {
   verb.add_option("--from", flags.from, "format of the mesh read; default: by its extension")
-      ->check(CLI::IsMember({"msh"}))
+      ->check(CLI::IsMember(format_names(true)))
       ->type_name("FORMAT");
 }
 
 void add_to_flags(CLI::App& verb, FormatFlags& flags) {
   verb.add_option("--to", flags.to, "format of the mesh written; default: by its extension")
-      ->check(CLI::IsMember({"msh", "vtu"}))
+      ->check(CLI::IsMember(format_names(false)))
       ->type_name("FORMAT");
   verb.add_flag("--ascii", flags.is_ascii, "write text; default: binary");
   verb.add_option("--msh-version", flags.msh_version, "version of the Gmsh format written")

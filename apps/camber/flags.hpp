@@ -38,6 +38,8 @@ struct FormatFlags {
   [[nodiscard]] io::ReadOptions reading() const;
   [[nodiscard]] io::WriteOptions writing() const;
 };
+/// ".msh .cgns ..": what can be read (or written).
+[[nodiscard]] std::string extensions(bool reading);
 void add_from_flag(CLI::App& verb, FormatFlags& flags);
 void add_to_flags(CLI::App& verb, FormatFlags& flags);
 

@@ -23,6 +23,7 @@ struct InfoFlags {
   CommonFlags common;
   FormatFlags format;
   std::string file, unit = "mm";
+  bool lists_formats = false;
 };
 
 bool is_cad(const std::string& path) {
@@ -34,6 +35,13 @@ bool is_cad(const std::string& path) {
 }
 
 int run(const InfoFlags& flags) {
+  if (flags.lists_formats) {
+    print(io::format_table());
+    return 0;
+  }
+  if (flags.file.empty()) {
+    throw OptionError("no file given", "camber info", "name a mesh or a CAD file, or --formats");
+  }
   ProgressLine line(flags.common.shows_progress());
   line.show("read", 0.0);
   const double scale = scale_of_unit(flags.unit);
@@ -73,9 +81,11 @@ Verb add_info(CLI::App& app) {
   const auto flags = std::make_shared<InfoFlags>();
   CLI::App* verb = app.add_subcommand(
       "info", "what is in a mesh or CAD file: counts, patches, boxes, names, faces");
-  verb->add_option("file", flags->file, "mesh (.msh) or CAD (.step .stp .iges .igs .brep)")
-      ->required()
+  verb->add_option("file", flags->file,
+                   "mesh (" + extensions(true) + ") or CAD (.step .stp .iges .igs .brep)")
       ->type_name("MESH|CAD");
+  verb->add_flag("--formats", flags->lists_formats,
+                 "list the mesh formats: orders, what they keep, which solvers take them");
   verb->add_option("--unit", flags->unit, "unit that CAD lengths are shown in")
       ->check(CLI::IsMember({"m", "mm", "in"}))
       ->type_name("UNIT")

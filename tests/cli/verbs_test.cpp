@@ -129,6 +129,32 @@ TEST_F(CliTest, ConvertKeepsOrdersAndWritesOtherFormats) {
   EXPECT_EQ(Json::parse(read_text(file("convert.json")))["output"]["cells_by_order"]["2"], 3653);
 }
 
+TEST_F(CliTest, ConvertGoesThroughEveryFormatAndKeepsCellsAndPatches) {
+  ASSERT_EQ(camber({"convert", k_mesh, file("a.cgns"), "--order", "2", "-q"}).code, 0);
+  ASSERT_EQ(camber({"convert", file("a.cgns"), file("b.su2"), "-q"}).code, 0);
+  ASSERT_EQ(camber({"convert", file("b.su2"), file("c.lb8.ugrid"), "--order", "1", "-q"}).code, 0);
+  ASSERT_EQ(camber({"convert", file("c.lb8.ugrid"), file("d.msh"), "-q"}).code, 0);
+
+  const MeshData mesh = io::read_mesh(file("d.msh"));
+
+  EXPECT_EQ(mesh.element_count(), 4305U);
+  std::vector<std::string> patches;
+  for (const EntityRecord& e : mesh.entities) {
+    if (e.key.dim == 2) patches.push_back(e.name);
+  }
+  EXPECT_THAT(patches, ElementsAre("ball", "far"));
+  EXPECT_THAT(files(), ElementsAre("a.cgns", "b.su2", "c.lb8.ugrid", "c.mapbc", "d.msh"));
+}
+
+TEST_F(CliTest, InfoListsTheFormatsOrAsksForAFile) {
+  EXPECT_THAT(camber({"info", "--formats"}).out, HasSubstr("| CGNS"));
+
+  const Outcome outcome = camber({"info"});
+
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("name a mesh or a CAD file"));
+}
+
 TEST_F(CliTest, InfoListsPatchesOfAMeshAndFacesOfACad) {
   const Outcome mesh = camber({"info", k_mesh, "--json", file("mesh.json")});
   const Outcome cad = camber({"info", k_cad, "--json", file("cad.json")});

@@ -3,6 +3,7 @@
 #include <camber/io/mesh_file.hpp>
 #include <camber/validity/element_validity.hpp>
 
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -111,6 +112,37 @@ TEST(ForeignMeshes, FourFormatsOfOneMeshSayTheSame) {
   }
   EXPECT_EQ(of_cgns, of_ugrid);
   EXPECT_EQ(of_cgns.size(), 16U);
+}
+
+/// Unpacks NAME.gz into the test's folder. "" if it is not there or cannot be unpacked.
+std::string unpacked(const std::string& name) {
+  const std::string from = foreign(name) + ".gz", to = scratch("unpacked.su2");
+  const std::string command = "gzip -dc '" + from + "' > '" + to + "' 2> /dev/null";
+  return fs::exists(from) && std::system(command.c_str()) == 0 ? to : "";
+}
+
+TEST(ForeignMeshes, TheSu2FileOfTheSameMeshSaysTheSameAgain) {
+  const std::string stem = "onera-m6/gen/m6_hyb_alltypes";
+  const std::string path = unpacked(stem + ".su2");
+  if (path.empty()) GTEST_SKIP() << stem << " is absent";
+
+  const MeshData su2 = read_mesh(path), cgns = read_mesh(foreign(stem + ".cgns"));
+
+  EXPECT_EQ(counts(su2), counts(cgns));
+  const double volume = total_measure(cgns, 3), area = total_measure(cgns, 2);
+  EXPECT_NEAR(total_measure(su2, 3), volume, 1e-12 * volume);
+  EXPECT_NEAR(total_measure(su2, 2), area, 1e-12 * area);
+}
+
+TEST(ForeignMeshes, TheCubicSphereOfSu2IsCertified) {
+  const std::string path = unpacked("su2-sphere-and-3d/SphereInSphereStructured_nPoly3.su2");
+  if (path.empty()) GTEST_SKIP() << "the cubic sphere is absent";
+
+  const MeshData mesh = read_mesh(path);
+
+  EXPECT_EQ(counts(mesh)[Shape::hexahedron], 768U);
+  EXPECT_EQ(counts(mesh)[Shape::quadrilateral], 512U);
+  EXPECT_EQ(bad_cells(mesh), 0U);
 }
 
 TEST(ForeignMeshes, HybridCgnsMeshesOfAnsaHaveNoTangledCell) {

@@ -176,5 +176,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "partitioned"}),
     [](const auto& p) { return std::string(p.param.name); });
 
+TEST(Formats, TheDocumentationHoldsTheTableOfTheRegistry) {
+  const std::string docs = slurp(std::string(CAMBER_SOURCE_DIR) + "/docs/formats.md");
+
+  EXPECT_NE(docs.find(format_table()), std::string::npos)
+      << "docs/formats.md differs from `camber info --formats`";
+}
+
 }  // namespace
 }  // namespace camber::io
