@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -141,6 +142,44 @@ TEST(Ugrid, TheApexOfAPyramidIsItsThirdNode) {
   }
   EXPECT_NEAR(std::abs(volume), 1.0 / 3.0, 1e-12);
 }
+
+/// Every change of a few bytes gives a mesh or one FileError; nothing else, never a crash.
+class Mutated : public testing::TestWithParam<NamedFormat> {};
+
+TEST_P(Mutated, IsAMeshOrOneError) {
+  const std::string path = scratch(GetParam().file);
+  write_mesh(surfaces_and_volumes(GetParam().highest_order), path);
+  const std::string whole = slurp(path);
+  const std::string alphabet = "0123456789-.eE =%\n\t\xff";
+  std::mt19937 random(7);
+  const auto pick = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  std::size_t refused = 0;
+  for (int k = 0; k < 2000; ++k) {
+    std::string bytes = whole;
+    for (std::size_t changes = 1 + pick(4); changes > 0; --changes) {
+      // Half of the changes hit the first bytes, where the counts are.
+      const std::size_t place = pick(2) == 0 ? pick(bytes.size()) : pick(64);
+      bytes[place] = pick(2) == 0 ? alphabet[pick(alphabet.size())] : static_cast<char>(pick(256));
+      if (pick(8) == 0) bytes.erase(pick(bytes.size()), 1 + pick(16));
+    }
+    try {
+      static_cast<void>(GetParam().highest_order > 1 ? parse_su2(path, bytes)
+                                                     : parse_ugrid(path, bytes, ""));
+    } catch (const FileError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Mutated,
+                         testing::Values(NamedFormat{"Su2", "m.su2", 2},
+                                         NamedFormat{"UgridText", "m.ugrid", 1},
+                                         NamedFormat{"UgridLb8", "m.lb8.ugrid", 1},
+                                         NamedFormat{"UgridR8", "m.r8.ugrid", 1}),
+                         [](const auto& p) { return std::string(p.param.name); });
 
 struct Hostile {
   const char* name;
