@@ -2,7 +2,7 @@
 # Python package, documentation. Dependencies of the binaries are found by dpkg-shlibdeps.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME camber)
-set(CPACK_PACKAGE_CONTACT "The Camber authors <camber@localhost>")
+set(CPACK_PACKAGE_CONTACT "The Camber authors <camber@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

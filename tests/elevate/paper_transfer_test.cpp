@@ -80,8 +80,8 @@ TEST(PaperTransfer, EndsCertifiedInAWholeRunWithoutSmoothing) {
 
   EXPECT_EQ(result.report.validity.certified, result.linear->cell_count());
   EXPECT_TRUE(uncertified_cells(*result.curved, all_cells(*result.linear)).empty());
-  EXPECT_GT(result.report.rescue.patches + result.report.rescue.orders_lowered +
-                result.report.rescue.scaled_back,
+  EXPECT_GT(result.report.rescue.patches + result.report.rescue.elastic_patches +
+                result.report.rescue.orders_lowered + result.report.rescue.scaled_back,
             0u)
       << "the start was inverted";
 }
