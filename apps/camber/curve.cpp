@@ -163,10 +163,8 @@ int run(const CurveFlags& flags) {
 void add_smoothing_flags(CLI::App& verb, CurveFlags& flags) {
   verb.add_option("--smooth", flags.smoothing,
                   "auto: polish patches of cells with a cost below 0.6 (or --quality, if given) "
-                  "and replace "
-                  "starts that are tangled as a whole; marching: the paper's smoother, surface "
-                  "then volume, "
-                  "with elevation; none: leave the certified mesh as it is")
+                  "and replace starts that are tangled as a whole; marching: the paper's smoother, "
+                  "surface then volume, with elevation; none: leave the certified mesh as it is")
       ->check(CLI::IsMember({"auto", "marching", "none"}))
       ->type_name("auto|marching|none")
       ->capture_default_str();
@@ -244,8 +242,9 @@ Verb add_curve(CLI::App& app) {
                  "slide wall nodes along the CAD until the faces follow it as closely as their "
                  "order can; default: evenly spread nodes");
   verb->add_flag("--split-pinched", flags->options.split_pinched,
-                 "cut cells whose corner has three edges on one smooth CAD face, which no curving "
-                 "can leave valid, from their centre; default: leave and list them");
+                 "mend cells whose corner has three edges on one smooth CAD face, which no curving "
+                 "can leave valid, inside the volume: remove the edge behind them or cut them; "
+                 "default: leave and list them");
   verb->add_flag("--allow-invalid", flags->options.allow_invalid,
                  "write even if an element is not certified; default: write nothing, exit code 3");
   verb->add_flag("--strict", flags->options.strict, "faces over the deviation give exit code 3");

@@ -89,7 +89,7 @@ TEST(Untangle, BringsBackANodeThatWasThrownOver) {
     ASSERT_FALSE(bad.empty());
     const Points wall = snapshot(curved, &cube.fixed);
 
-    const UntangleResult result = untangle(curved, bad, cube.fixed);
+    const UntangleResult result = untangle(curved, bad);
 
     EXPECT_EQ(result.patches, 1u);
     EXPECT_EQ(result.repaired, 1u);
@@ -114,7 +114,7 @@ TEST(Untangle, MakesRoomForASurfaceThatBulgesInwards) {
   ASSERT_EQ(bad, std::vector<Index>{cell});
   const Points wall = snapshot(curved, &cube.fixed);
 
-  const UntangleResult result = untangle(curved, bad, cube.fixed);
+  const UntangleResult result = untangle(curved, bad);
 
   EXPECT_EQ(result.repaired, 1u);
   EXPECT_TRUE(bad_cells(curved).empty());
@@ -139,7 +139,7 @@ TEST(Untangle, PutsBackToTheLastBitWhatItCannotRepair) {
     options.rings = 1;
     options.iterations_per_round = 5;
 
-    const UntangleResult result = untangle(curved, bad, cube.fixed, options);
+    const UntangleResult result = untangle(curved, bad, options);
 
     EXPECT_EQ(result.repaired, 0u);
     EXPECT_EQ(result.still_bad, bad);
@@ -157,7 +157,7 @@ TEST(Untangle, LeavesPatchesAloneThatAreTooLarge) {
   UntangleOptions options;
   options.max_cells = 1;
 
-  const UntangleResult result = untangle(curved, bad, cube.fixed, options);
+  const UntangleResult result = untangle(curved, bad, options);
 
   EXPECT_EQ(result.still_bad, bad);
   EXPECT_EQ(snapshot(curved), before);
@@ -168,7 +168,7 @@ TEST(Untangle, OfNothingDoesNothing) {
   CurvedMesh curved = cube.curved(3);
   const Points before = snapshot(curved);
 
-  const UntangleResult result = untangle(curved, {}, cube.fixed);
+  const UntangleResult result = untangle(curved, {});
 
   EXPECT_EQ(result.patches, 0u);
   EXPECT_EQ(snapshot(curved), before);
@@ -184,7 +184,7 @@ TEST(Untangle, RepairsAMeshOfMixedOrdersToTheSameBitsForAnyNumberOfThreads) {
     const ThreadLimit limit(threads);
     CurvedMesh curved(cube.mesh, cube.topology, minimum_rule(cube.topology, orders));
     curved.edge_nodes(cube.edge(false))[0] += Vec3(0.4, -0.3, 0.35);
-    const UntangleResult result = untangle(curved, bad_cells(curved), cube.fixed);
+    const UntangleResult result = untangle(curved, bad_cells(curved));
     EXPECT_EQ(result.repaired, 1u);
     EXPECT_TRUE(bad_cells(curved).empty());
     results.push_back(snapshot(curved));

@@ -179,8 +179,9 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   if (layer.decay == Decay::cell && options.smoothing == Smoothing::automatic) {
     carried.emplace(mesh, topology, result.association, wall, placement, columns, options.layer);
   }
+  const LayerField& layers = carried ? *carried : field;
   const OrderRequests requests =
-      request_orders(mesh, topology, wall, placement, carried ? *carried : field, options.orders);
+      request_orders(mesh, topology, wall, placement, layers, options.orders);
   OrderField orders = settle_orders(mesh, topology, requests, options.orders);
 
   watch.next("propagate");
@@ -201,14 +202,14 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   std::vector<Index> uncertified = uncertified_cells(*result.curved, curved_cells);
   if (is_tangled(options, uncertified.size(), curved_cells.size())) {
     watch.next("smooth");
-    const Start start = untangle_all(result, carried ? *carried : field, curved_cells, uncertified);
+    const Start start = untangle_all(result, layers, curved_cells, uncertified);
     is_elastic = start == Start::elastic || (is_elastic && start == Start::as_it_was);
   }
 
   watch.next("rescue");
   progress("rescue", 0.8);
   const Carry carry = [&](CurvedMesh& curved, const std::vector<Index>& cells) {
-    apply_field(carried ? *carried : field, curved, cells);
+    apply_field(layers, curved, cells);
     if (!is_elastic) return cells;
     relax_elastic(curved, curved_cells, free_nodes(curved));
     return curved_cells;

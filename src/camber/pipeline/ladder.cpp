@@ -114,7 +114,6 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
   result.pinched = pinched;
   const LinearMesh& mesh = curved.linear();
   const Topology& topology = curved.topology();
-  const FixedEntities fixed = boundary_entities(topology);
   std::vector<std::uint8_t> is_smoothed(wall.face_count(), 0);
   bool is_relaxed = false;
   UntangleOptions effort;
@@ -122,7 +121,7 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
   for (int pass = 0; pass <= 2 * k_max_order && !bad.empty(); ++pass) {
     std::vector<Index> to_lower = take_wall_faults(topology, wall, columns, pinched, bad);
     if (to_lower.empty()) {
-      const UntangleResult mended = untangle(curved, bad, fixed, effort);
+      const UntangleResult mended = untangle(curved, bad, effort);
       effort.evaluations -= std::min(effort.evaluations, mended.evaluations);
       result.mended.insert(result.mended.end(), mended.mended.begin(), mended.mended.end());
       result.load_steps += mended.load_steps;

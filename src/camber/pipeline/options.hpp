@@ -45,7 +45,7 @@ struct CurveOptions {
   LinkBy link_by = LinkBy::automatic;
   io::MeshLink mesh_link;      // --link FILE
   bool fit = false;            // slide wall nodes until the faces follow the CAD best
-  bool split_pinched = false;  // cut cells that no curved wall can leave valid from their centre
+  bool split_pinched = false;  // mend cells that no curved wall can leave valid (unpinch.hpp)
   bool allow_invalid = false;  // write even if something is not certified
   bool strict = false;         // faces over the deviation count as failure (exit code 3)
 };

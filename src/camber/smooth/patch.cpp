@@ -8,11 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <numeric>
 #include <optional>
-#include <unordered_map>
 
 namespace camber {
 namespace {
@@ -88,20 +84,15 @@ bool repair(CurvedMesh& curved, detail::CellEnergy& patch, const detail::GroupSo
   return false;
 }
 
-/// Takes the displacement off the free entities of some cells.
+/// Takes the displacement off the free nodes of some cells.
 void straighten(CurvedMesh& curved, const CurvedMesh& straight, const std::vector<Index>& cells,
-                const FixedEntities& fixed) {
-  const auto copy = [](std::span<const Vec3> from, std::span<Vec3> to) {
-    std::copy(from.begin(), from.end(), to.begin());
-  };
+                const std::vector<std::uint8_t>& is_free) {
   for (Index c : cells) {
-    for (Index e : curved.topology().edges_of_cell(c)) {
-      if (!fixed.edge[at(e)]) copy(straight.edge_nodes(e), curved.edge_nodes(e));
-    }
-    for (Index f : curved.topology().faces_of_cell(c)) {
-      if (!fixed.face[at(f)]) copy(straight.face_nodes(f), curved.face_nodes(f));
-    }
-    copy(straight.cell_nodes(c), curved.cell_nodes(c));
+    detail::for_each_node_range(curved, c, [&](std::size_t first, std::size_t count) {
+      for (std::size_t i = first; i < first + count; ++i) {
+        if (is_free[i]) curved.high_order_nodes()[i] = straight.high_order_nodes()[i];
+      }
+    });
   }
 }
 
@@ -185,7 +176,7 @@ std::vector<std::uint8_t> free_nodes(const CurvedMesh& curved,
 }
 
 UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified,
-                        const FixedEntities& fixed, const UntangleOptions& options) {
+                        const UntangleOptions& options) {
   UntangleResult result;
   const std::vector<std::uint8_t> is_free = free_nodes(curved);
   std::optional<CurvedMesh> straight;
@@ -213,7 +204,7 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
       // A second start: the bad cells themselves straight. Flat cells tolerate little else.
       const VecX carried = patch.positions(curved);
       if (!straight) straight.emplace(curved.linear(), curved.topology(), curved.orders());
-      straighten(curved, *straight, group, fixed);
+      straighten(curved, *straight, group, is_free);
       is_repaired = repair(curved, patch, scale, options, allowance);
       if (!is_repaired) patch.store(carried, curved);
     }

@@ -35,14 +35,14 @@ struct UntangleResult {
   std::size_t evaluations = 0;            // of one cell, spent
 };
 
-/// For each connected group of uncertified cells: minimises the distortion energy over the free
-/// nodes of the group and its rings (L-BFGS, scaled by the diagonal of the energy's metric part),
-/// regularised while something is inverted, until every cell it touches is certified: from the
-/// nodes as they are, from the cells straight, and in steps of load from near the straight copy;
-/// else the group is put back as it was. Energy: Gauss points with weights of equal sum per cell,
-/// plus the lattice points with little weight, plus points where a certificate failed.
+/// For each connected group of uncertified cells: minimises the distortion energy over the nodes
+/// (free_nodes) of the group and its rings (L-BFGS, scaled by the diagonal of the energy's metric
+/// part), regularised while something is inverted, until every cell it touches is certified: from
+/// the nodes as they are, from the cells straight, and in steps of load from near the straight
+/// copy; else the group is put back as it was. Energy: Gauss points with weights of equal sum per
+/// cell, plus the lattice points with little weight, plus points where a certificate failed.
 /// Deterministic.
 UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertified,
-                        const FixedEntities& fixed, const UntangleOptions& options = {});
+                        const UntangleOptions& options = {});
 
 }  // namespace camber

@@ -1,6 +1,6 @@
 #include <camber/base/error.hpp>
+#include <camber/io/detail/base64.hpp>
 #include <camber/io/detail/input_file.hpp>
-#include <camber/io/meshlink/base64.hpp>
 #include <camber/io/meshlink/meshlink.hpp>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <camber/io/detail/output_file.hpp>
+#include <camber/io/detail/xml_text.hpp>
 #include <camber/io/mesh_file.hpp>
 #include <camber/io/meshlink/meshlink.hpp>
 
@@ -7,31 +8,8 @@
 namespace camber::io {
 namespace {
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string attribute(const char* name, const std::string& value) {
-  return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, escaped(value));
+  return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, xml_escaped(value));
 }
 std::string attribute(const char* name, int value) {
   return value == 0 ? "" : fmt::format(" {}=\"{}\"", name, value);
@@ -83,26 +61,26 @@ void write(const MeshLink& link, OutputFile& out) {
   out.print("<MeshLink xmlns=\"https://cadence.com\" version=\"1.0\">\n");
   for (const MeshLink::Attribute& a : link.attributes) {
     out.print("  <Attribute attid=\"{}\"{}>{}</Attribute>\n", a.id, attribute("name", a.name),
-              escaped(a.text));
+              xml_escaped(a.text));
   }
   for (const MeshLink::Group& g : link.attribute_groups) {
     write_group("AttributeGroup", "attid", g, out);
   }
   for (const MeshLink::GeometryFile& file : link.geometry) {
-    out.print("  <GeometryFile filename=\"{}\"{}>\n", escaped(file.path),
+    out.print("  <GeometryFile filename=\"{}\"{}>\n", xml_escaped(file.path),
               attribute("aref", file.attributes));
     for (const MeshLink::Reference& r : file.references) {
-      out.print("    <GeometryReference gid=\"{}\" ref=\"{}\"{}{}/>\n", r.id, escaped(r.ref),
+      out.print("    <GeometryReference gid=\"{}\" ref=\"{}\"{}{}/>\n", r.id, xml_escaped(r.ref),
                 attribute("name", r.name), attribute("aref", r.attributes));
     }
     out.print("  </GeometryFile>\n");
   }
   for (const MeshLink::Group& g : link.geometry_groups) write_group("GeometryGroup", "gid", g, out);
   for (const MeshLink::MeshFile& file : link.meshes) {
-    out.print("  <MeshFile filename=\"{}\"{}>\n", escaped(file.path),
+    out.print("  <MeshFile filename=\"{}\"{}>\n", xml_escaped(file.path),
               attribute("aref", file.attributes));
     for (const MeshLink::Model& model : file.models) {
-      out.print("    <MeshModelReference ref=\"{}\"{}{}{}>\n", escaped(model.ref),
+      out.print("    <MeshModelReference ref=\"{}\"{}{}{}>\n", xml_escaped(model.ref),
                 attribute("name", model.name), attribute("gref", model.geometry),
                 attribute("aref", model.attributes));
       write_parts("MeshSheet", "MeshFace", model.sheets, out);
@@ -121,7 +99,7 @@ void write(const MeshLink& link, OutputFile& out) {
   }
   for (const MeshLink::Linkage& l : link.linkages) {
     out.print("  <MeshElementLinkage sourceEntityRef=\"{}\" targetEntityRef=\"{}\"{}{}{}/>\n",
-              escaped(l.source), escaped(l.target), attribute("name", l.name),
+              xml_escaped(l.source), xml_escaped(l.target), attribute("name", l.name),
               attribute("xref", l.transform), attribute("aref", l.attributes));
   }
   out.print("</MeshLink>\n");

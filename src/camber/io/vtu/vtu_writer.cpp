@@ -1,8 +1,10 @@
 #include <camber/base/error.hpp>
+#include <camber/io/detail/base64.hpp>
 #include <camber/io/detail/hash.hpp>
 #include <camber/io/detail/input_file.hpp>
 #include <camber/io/detail/mesh_check.hpp>
 #include <camber/io/detail/output_file.hpp>
+#include <camber/io/detail/xml_text.hpp>
 #include <camber/io/vtu/vtu_cells.hpp>
 #include <camber/io/vtu/vtu_writer.hpp>
 
@@ -29,46 +31,12 @@ constexpr const char* type_name() {
   return "UInt8";
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
+/// Control characters, which XML does not know, become spaces.
+std::string escaped(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
   }
-  return result;
-}
-
-std::string base64(std::string_view bytes) {
-  static constexpr std::string_view k_digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t triple = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const bool inside = i + k < bytes.size();
-      triple = (triple << 8U) | (inside ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      const bool inside = k <= bytes.size() - i;
-      text += inside ? k_digits[(triple >> (18 - 6 * k)) & 63U] : '=';
-    }
-  }
-  return text;
+  return xml_escaped(text);
 }
 
 /// Writes data arrays: in text where they stand, in binary collected behind the XML.
@@ -93,8 +61,8 @@ class Arrays {
       const std::uint64_t size = bytes.size();
       const std::string_view header(reinterpret_cast<const char*>(&size), sizeof(size));
       out_.append(" format=\"binary\">\n");
-      out_.append(base64(header));
-      out_.append(base64(bytes));
+      out_.append(encode_base64(header));
+      out_.append(encode_base64(bytes));
     } else {
       out_.append(" format=\"ascii\">\n");
       const auto width = components > 1 ? static_cast<std::size_t>(components) : k_per_line;

@@ -1,6 +1,4 @@
-#include <camber/io/meshlink/base64.hpp>
-
-#include <array>
+#include <camber/io/detail/base64.hpp>
 
 namespace camber::io {
 namespace {
@@ -42,25 +40,20 @@ std::optional<std::vector<std::int32_t>> decode_base64(std::string_view text) {
   return values;
 }
 
-std::string encode_base64(const std::vector<std::int32_t>& values) {
+std::string encode_base64(std::string_view bytes) {
   std::string text;
-  std::array<std::uint32_t, 3> group{};
-  std::size_t held = 0;
-  const auto flush = [&] {
-    const std::uint32_t bits = group[0] << 16 | group[1] << 8 | group[2];
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= held ? k_digits[(bits >> (18 - 6 * k)) & 63u] : '=';
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t triple = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool inside = i + k < bytes.size();
+      triple = (triple << 8U) | (inside ? static_cast<unsigned char>(bytes[i + k]) : 0U);
     }
-    group = {};
-    held = 0;
-  };
-  for (std::int32_t value : values) {
     for (std::size_t k = 0; k < 4; ++k) {
-      group[held++] = (static_cast<std::uint32_t>(value) >> (8 * k)) & 0xffu;
-      if (held == 3) flush();
+      const bool inside = k <= bytes.size() - i;
+      text += inside ? k_digits[(triple >> (18 - 6 * k)) & 63U] : '=';
     }
   }
-  if (held > 0) flush();
   return text;
 }
 

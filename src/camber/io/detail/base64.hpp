@@ -1,6 +1,4 @@
 #pragma once
-#include <camber/base/ids.hpp>
-
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +10,7 @@ namespace camber::io {
 /// Little-endian 32-bit integers in base64 (RFC 4648); white space is skipped. Empty if the text is
 /// no base64 or not a whole number of integers.
 [[nodiscard]] std::optional<std::vector<std::int32_t>> decode_base64(std::string_view text);
-[[nodiscard]] std::string encode_base64(const std::vector<std::int32_t>& values);
+/// Any bytes in base64 (RFC 4648), in one line.
+[[nodiscard]] std::string encode_base64(std::string_view bytes);
 
 }  // namespace camber::io
