@@ -1,10 +1,10 @@
 #include <camber/base/sorted_set.hpp>
 #include <camber/pipeline/ladder.hpp>
+#include <camber/pipeline/volume_start.hpp>
 #include <camber/pipeline/wall_repair.hpp>
 #include <camber/smooth/elastic.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 namespace camber {
 namespace {
@@ -94,10 +94,10 @@ constexpr int k_relaxed_rings = 20;
 bool relax_around(CurvedMesh& curved, const std::vector<Index>& bad, LadderResult& result,
                   std::vector<Index>& still) {
   CurvedMesh relaxed = curved;
-  relax_elastic_around(relaxed, bad, k_relaxed_rings, free_nodes(curved));
-  std::vector<Index> all(curved.linear().cell_count());
-  std::iota(all.begin(), all.end(), 0);
-  still = uncertified_cells(relaxed, all);
+  const ElasticResult solve =
+      relax_elastic_around(relaxed, bad, k_relaxed_rings, free_nodes(curved));
+  add_solve(solve, result.elastic);
+  still = uncertified_cells(relaxed, solve.cells);
   if (still.size() >= bad.size()) return false;
   curved = std::move(relaxed);
   ++result.elastic_patches;
@@ -158,7 +158,7 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     make_sorted_set(changed);
     if (changed.empty()) break;
     for (const auto& [slot, cap] : caps) result.lowered_faces.push_back(slot);
-    std::vector<Index> again = carry(curved, cells_over(mesh, topology, wall, columns, changed));
+    std::vector<Index> again = carry(cells_over(mesh, topology, wall, columns, changed));
     again.insert(again.end(), bad.begin(), bad.end());
     again.insert(again.end(), to_lower.begin(), to_lower.end());
     for (Index c : std::vector<Index>(again)) {
