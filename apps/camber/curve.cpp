@@ -3,6 +3,7 @@
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
+#include <camber/pipeline/own_surface.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -27,6 +28,7 @@ struct CurveFlags {
                     smoothing = "auto";
   std::string link = "auto";
   bool is_quality_given = false;
+  double feature_angle = FeatureOptions{}.angle;
   std::vector<std::string> geometry, outputs, patches;
 };
 
@@ -34,6 +36,10 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool is_without_cad(const CurveFlags& flags) {
+  return flags.geometry.size() == 1 && flags.geometry.front() == "auto";
 }
 
 void set_deviation_length(const std::string& text, OrderOptions& orders) {
@@ -51,6 +57,10 @@ void set_deviation_length(const std::string& text, OrderOptions& orders) {
 
 CurveOptions options_of(const CurveFlags& flags) {
   CurveOptions options = flags.options;
+  if (is_without_cad(flags) && flags.link != "auto") {
+    throw OptionError("without a CAD file there is nothing to link to", "--link",
+                      "leave it out, or give the CAD with -g");
+  }
   options.scale = scale_of_unit(flags.unit);
   set_deviation_length(flags.deviation_length, options.orders);
   options.association = association_of(flags.patches);
@@ -93,17 +103,26 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"split-pinched", yes_no(options.split_pinched)},
       {"allow-invalid", yes_no(options.allow_invalid)},
       {"strict", yes_no(options.strict)}};
+  if (is_without_cad(flags)) {
+    list.emplace_back("feature-angle", fmt::format("{:g}", flags.feature_angle));
+  }
   if (!flags.patches.empty()) {
     list.emplace_back("patch", fmt::format("{}", fmt::join(flags.patches, " ")));
   }
   return list;
 }
 
+FeatureOptions features_of(const CurveFlags& flags) {
+  FeatureOptions features;
+  features.angle = features.corner_angle = flags.feature_angle;
+  return features;
+}
+
 /// Writes all outputs, each verified before it replaces anything. @return seconds spent verifying
 double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certified) {
   double verifying = 0.0;
   io::WriteOptions writing = flags.format.writing();
-  writing.geometry = flags.geometry.front();
+  if (!is_without_cad(flags)) writing.geometry = flags.geometry.front();
   for (const std::string& path : flags.outputs) {
     io::write_mesh(mesh, path, writing, [&](const MeshData& read_back) {
       const Clock::time_point start = Clock::now();
@@ -120,19 +139,23 @@ double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certifie
 int run(const CurveFlags& flags) {
   const Clock::time_point begin = Clock::now();
   const CurveOptions options = options_of(flags);
-  const std::string& cad = only_geometry(flags.geometry);
-  refuse_overwriting({flags.mesh, cad}, flags.outputs);
+  std::vector<std::string> inputs{flags.mesh};
+  if (!is_without_cad(flags)) inputs.push_back(only_geometry(flags.geometry));
+  refuse_overwriting(inputs, flags.outputs);
   for (const std::string& path : flags.outputs) io::check_writable(path, flags.format.writing());
 
   ProgressLine line(flags.common.shows_progress());
   line.show("read", 0.0);
   const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   stop_if_interrupted();
-  const std::unique_ptr<GeometryModel> geometry = read_cad(cad);
+  std::unique_ptr<GeometryModel> geometry;
+  if (!is_without_cad(flags)) geometry = read_cad(inputs.back());
   stop_if_interrupted();
   const double reading = seconds_since(begin);
 
-  CurveResult result = curve(mesh, *geometry, options, line.progress());
+  CurveResult result = geometry
+                           ? curve(mesh, *geometry, options, line.progress())
+                           : curve_without_cad(mesh, features_of(flags), options, line.progress());
   Report& report = result.report;
   report.input.mesh = flags.mesh;
   report.input.geometry = flags.geometry;
@@ -217,9 +240,11 @@ Verb add_curve(CLI::App& app) {
   verb->add_option("mesh", flags->mesh, "linear mesh (" + extensions(true) + ")")
       ->required()
       ->type_name("MESH");
-  verb->add_option("-g,--geometry", flags->geometry, "CAD file (.step .stp .iges .igs .brep)")
+  verb->add_option("-g,--geometry", flags->geometry,
+                   "CAD file (.step .stp .iges .igs .brep); auto: there is none, a smooth surface "
+                   "through the boundary vertices of the mesh takes its place")
       ->required()
-      ->type_name("CAD")
+      ->type_name("CAD|auto")
       ->expected(1)
       ->take_all();
   verb->add_option("-o,--output", flags->outputs,
@@ -238,6 +263,12 @@ Verb add_curve(CLI::App& app) {
       ->type_name("LINK|auto|tags|shape")
       ->capture_default_str();
   add_patch_flag(*verb, flags->patches);
+  verb->add_option("--feature-angle", flags->feature_angle,
+                   "-g auto: edges between faces turned by more stay sharp, chains of them have a "
+                   "corner where they turn by more [degrees]")
+      ->check(CLI::Range(1.0, 179.0))
+      ->type_name("ANGLE")
+      ->capture_default_str();
   verb->add_flag("--fit", flags->options.fit,
                  "slide wall nodes along the CAD until the faces follow it as closely as their "
                  "order can; default: evenly spread nodes");

@@ -156,16 +156,20 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     const std::vector<Index> lowered = placement.lower(caps);
     changed.insert(changed.end(), lowered.begin(), lowered.end());
     make_sorted_set(changed);
-    if (changed.empty()) break;
+    if (changed.empty()) {  // nothing left to try: all that is bad is scaled back
+      bad.insert(bad.end(), to_lower.begin(), to_lower.end());
+      make_sorted_set(bad);
+      break;
+    }
     for (const auto& [slot, cap] : caps) result.lowered_faces.push_back(slot);
     std::vector<Index> again = carry(cells_over(mesh, topology, wall, columns, changed));
     again.insert(again.end(), bad.begin(), bad.end());
     again.insert(again.end(), to_lower.begin(), to_lower.end());
+    // Cells that share no more than an edge have changed as well.
     for (Index c : std::vector<Index>(again)) {
-      for (Index f : topology.faces_of_cell(c)) {
-        for (Index side : topology.face2cell[at(f)]) {
-          if (side != k_none) again.push_back(side);
-        }
+      for (Index e : topology.edges_of_cell(c)) {
+        const std::span<const Index> around = topology.cells_of_edge(e);
+        again.insert(again.end(), around.begin(), around.end());
       }
     }
     make_sorted_set(again);

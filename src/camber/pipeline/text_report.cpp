@@ -129,6 +129,9 @@ constexpr double k_sure = 0.7;
 /// Only what was found by shape needs telling.
 void add_link(const Report& report, std::string& out) {
   const auto& link = report.link;
+  if (link.method == "mesh") {
+    out += fmt::format("\nGeometry: made from the mesh, there is no CAD\n  {}\n", link.reason);
+  }
   if (link.method != "shape") return;
   bool is_any = false;
   out += "\nLink to the CAD: found by shape\n";
