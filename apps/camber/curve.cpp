@@ -3,6 +3,7 @@
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
+#include <camber/pipeline/geometry_source.hpp>
 #include <camber/pipeline/own_surface.hpp>
 
 #include <algorithm>
@@ -62,6 +63,10 @@ CurveOptions options_of(const CurveFlags& flags) {
                       "leave it out, or give the CAD with -g");
   }
   options.scale = scale_of_unit(flags.unit);
+  if (flags.geometry.size() == 1 && is_geometry_without_cad(flags.geometry.front())) {
+    if (flags.link == "auto") options.link_by = LinkBy::shape;  // it has no tags for the mesh
+    if (options.scale == 0.0) options.scale = 1.0;              // and the mesh's unit
+  }
   set_deviation_length(flags.deviation_length, options.orders);
   options.association = association_of(flags.patches);
   options.propagation = flags.propagation == "cell"      ? Propagation::cell
@@ -149,7 +154,11 @@ int run(const CurveFlags& flags) {
   const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   stop_if_interrupted();
   std::unique_ptr<GeometryModel> geometry;
-  if (!is_without_cad(flags)) geometry = read_cad(inputs.back());
+  if (!is_without_cad(flags)) {
+    const std::string& source = flags.geometry.front();
+    geometry = is_geometry_without_cad(source) ? make_geometry(source, features_of(flags))
+                                               : read_cad(source);
+  }
   stop_if_interrupted();
   const double reading = seconds_since(begin);
 
@@ -241,8 +250,10 @@ Verb add_curve(CLI::App& app) {
       ->required()
       ->type_name("MESH");
   verb->add_option("-g,--geometry", flags->geometry,
-                   "CAD file (.step .stp .iges .igs .brep); auto: there is none, a smooth surface "
-                   "through the boundary vertices of the mesh takes its place")
+                   "CAD file (.step .stp .iges .igs .brep). Without CAD: auto, a smooth surface "
+                   "through the boundary vertices of the mesh; a finer surface mesh (.stl .msh); "
+                   "or sphere:x,y,z,r, ellipsoid:x,y,z,a,b,c, cylinder:x,y,z,dx,dy,dz,r, "
+                   "torus:x,y,z,dx,dy,dz,R,r")
       ->required()
       ->type_name("CAD|auto")
       ->expected(1)

@@ -2,6 +2,7 @@
 #include <camber/basis/lagrange.hpp>
 #include <camber/basis/lattice.hpp>
 #include <camber/pipeline/check.hpp>
+#include <camber/pipeline/geometry_source.hpp>
 #include <camber/pipeline/own_surface.hpp>
 
 #include <cmath>
@@ -108,6 +109,31 @@ TEST(WithoutCad, ThePlanesOfABoxStayPlanesAndItsEdgesSharp) {
     EXPECT_EQ(patch.kind == PatchKind::cad, patch.name == "ball");
   }
   EXPECT_EQ(planes, 6u);
+}
+
+TEST(WithoutCad, AFinerSurfaceMeshOrAnAnalyticSurfaceCanBeTheGeometry) {
+  const std::string finer = ::testing::TempDir() + "camber_finer.msh";
+  MeshData surface;
+  const SurfaceMesh sphere = icosphere(3);
+  surface.points = sphere.points;
+  for (const std::array<Index, 4>& face : sphere.faces) {
+    append_element(surface, Shape::triangle, 1, {face[0], face[1], face[2]});
+  }
+  io::write_mesh(surface, finer);
+  CurveOptions options = order(3);
+  options.link_by = LinkBy::shape;
+  options.scale = 1.0;
+  for (const std::string& source : {finer, std::string("sphere:0,0,0,1")}) {
+    ASSERT_TRUE(is_geometry_without_cad(source));
+    const std::unique_ptr<GeometryModel> geometry = make_geometry(source);
+    options.association.distance_tolerance = 2e-2;  // the vertices are not those of the finer mesh
+    const CurveResult result = curve(case_mesh("ball"), *geometry, options);
+    expect_promises(result);
+    const std::unique_ptr<GeometryModel> cad = case_geometry("ball");
+    const Report truth = check(exported(result, options), cad.get(), {});
+    EXPECT_LT(truth.surface.maximum, 1e-3) << source;
+  }
+  std::filesystem::remove(finer);
 }
 
 TEST(WithoutCad, RulesForPatchesHold) {

@@ -32,7 +32,7 @@ class Judge {
         sides_(sides),
         features_(features),
         angle_(options.angle * std::numbers::pi / 180.0),
-        certain_(std::max(angle_, options.certain_angle * std::numbers::pi / 180.0)) {
+        certain_(2.0 * angle_) {
     for (const FacetEdge& edge : features.edges) turn_.push_back(turn_of(mesh, edge));
   }
 

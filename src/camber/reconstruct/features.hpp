@@ -27,12 +27,11 @@ struct FacetMesh {
 };
 
 struct FeatureOptions {
-  /// An edge may be sharp where the normals of its facets differ by more [degrees].
+  /// An edge may be sharp where the normals of its facets differ by more [degrees]. It is for
+  /// certain where they differ by more than twice as much; between the two only if the turn is not
+  /// spread: if the parallel edges beside it turn by less than half as much. A nose of few facets
+  /// is round, a crease between flat parts is sharp.
   double angle = 40.0;
-  /// It is for certain where they differ by more; between the two only if the turn is not spread:
-  /// if the parallel edges beside it turn by less than half as much. A nose of few facets is round,
-  /// a crease between flat parts is sharp.
-  double certain_angle = 80.0;
   /// A chain has a corner where it turns by more [degrees].
   double corner_angle = 40.0;
 };
