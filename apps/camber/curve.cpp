@@ -5,6 +5,7 @@
 #include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/geometry_source.hpp>
 #include <camber/pipeline/own_surface.hpp>
+#include <camber/pipeline/periodic.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -30,7 +31,7 @@ struct CurveFlags {
   std::string link = "auto";
   bool is_quality_given = false;
   double feature_angle = FeatureOptions{}.angle;
-  std::vector<std::string> geometry, outputs, patches;
+  std::vector<std::string> geometry, outputs, patches, periodic;
 };
 
 using Clock = std::chrono::steady_clock;
@@ -69,6 +70,9 @@ CurveOptions options_of(const CurveFlags& flags) {
   }
   set_deviation_length(flags.deviation_length, options.orders);
   options.association = association_of(flags.patches);
+  for (const std::string& text : flags.periodic) {
+    options.periodic.push_back(parse_periodic(text));
+  }
   options.propagation = flags.propagation == "cell"      ? Propagation::cell
                         : flags.propagation == "elastic" ? Propagation::elastic
                                                          : Propagation::layer;
@@ -110,6 +114,9 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"strict", yes_no(options.strict)}};
   if (is_without_cad(flags)) {
     list.emplace_back("feature-angle", fmt::format("{:g}", flags.feature_angle));
+  }
+  if (!flags.periodic.empty()) {
+    list.emplace_back("periodic", fmt::format("{}", fmt::join(flags.periodic, " ")));
   }
   if (!flags.patches.empty()) {
     list.emplace_back("patch", fmt::format("{}", fmt::join(flags.patches, " ")));
@@ -274,6 +281,13 @@ Verb add_curve(CLI::App& app) {
       ->type_name("LINK|auto|tags|shape")
       ->capture_default_str();
   add_patch_flag(*verb, flags->patches);
+  verb->add_option("--periodic", flags->periodic,
+                   "two patches that are copies: their curved shapes are made equal; the motion is "
+                   "found if it is a translation or a turn between planes; may be given several "
+                   "times")
+      ->expected(1)
+      ->take_all()
+      ->type_name("NAME=OTHER[:dx,dy,dz|:x,y,z,ax,ay,az,degrees]");
   verb->add_option("--feature-angle", flags->feature_angle,
                    "-g auto: edges between faces turned by more stay sharp, chains of them have a "
                    "corner where they turn by more [degrees]")

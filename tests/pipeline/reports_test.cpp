@@ -93,10 +93,11 @@ std::vector<std::string> keys(const Json& object) {
 TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
   const Json json = Json::parse(json_report(filled()));
 
-  EXPECT_THAT(keys(json), ElementsAre("camber", "command", "status", "exit_code", "options",
-                                      "input", "output", "validity", "conformity", "link",
-                                      "surface", "quality", "wall_spacing", "start", "rescue",
-                                      "smooth", "time", "memory", "threads", "ranks", "warnings"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("camber", "command", "status", "exit_code", "options", "input", "output",
+                          "validity", "conformity", "link", "surface", "quality", "wall_spacing",
+                          "start", "rescue", "periodic", "smooth", "time", "memory", "threads",
+                          "ranks", "warnings"));
   EXPECT_THAT(keys(json["input"]), ElementsAre("mesh", "geometry", "cells", "nodes"));
   EXPECT_THAT(keys(json["input"]["cells"]), ElementsAre("tet", "pyramid", "prism", "hex"));
   EXPECT_THAT(keys(json["output"]),

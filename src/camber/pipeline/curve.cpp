@@ -3,6 +3,7 @@
 #include <camber/pipeline/cad_link.hpp>
 #include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/ladder.hpp>
+#include <camber/pipeline/periodic.hpp>
 #include <camber/pipeline/smooth_stage.hpp>
 #include <camber/pipeline/summary.hpp>
 #include <camber/pipeline/unpinch.hpp>
@@ -135,9 +136,11 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
     carried.emplace(mesh, topology, result.association, wall, placement, columns, options.layer);
   }
   const LayerField& layers = carried ? *carried : field;
-  const OrderRequests requests =
-      request_orders(mesh, topology, wall, placement, layers, options.orders);
-  OrderField orders = settle_orders(mesh, topology, requests, options.orders);
+  OrderRequests requests = request_orders(mesh, topology, wall, placement, layers, options.orders);
+  PeriodicMatch periodic(mesh, topology, options.periodic);
+  OrderField orders = periodic.settle(requests, [&](const OrderRequests& asked) {
+    return settle_orders(mesh, topology, asked, options.orders);
+  });
 
   watch.next("propagate");
   progress("propagate", 0.6);
@@ -166,6 +169,8 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
                    options, progress);
   result.report.smooth = std::move(smoothed.rows);
   result.report.rescue.put_back = smoothed.put_back;
+  periodic.copy(*result.curved);
+  result.report.periodic = periodic.rows();
 
   watch.next("measure");
   progress("measure", 0.9);

@@ -144,6 +144,24 @@ Json start(const StartReport& start) {
             {"largest_residual", start.elastic.largest_residual}}}};
 }
 
+Json periodic(const Report& report) {
+  Json rows = Json::array();
+  for (const PeriodicRow& row : report.periodic) {
+    Json rotation = Json::array();
+    for (int i = 0; i < 3; ++i) rotation.push_back(to_json(row.motion.rotation.row(i).transpose()));
+    rows.push_back({{"from", row.from},
+                    {"to", row.to},
+                    {"rotation", rotation},
+                    {"translation", to_json(row.motion.translation)},
+                    {"faces", row.faces},
+                    {"edges", row.edges},
+                    {"largest_mismatch", row.largest_mismatch},
+                    {"largest_change", row.largest_change},
+                    {"refused", row.refused}});
+  }
+  return rows;
+}
+
 Json smooth(const Report& report) {
   Json rows = Json::array();
   for (const SmoothRow& row : report.smooth) {
@@ -217,6 +235,7 @@ std::string json_report(const Report& report) {
       {"max_change", report.wall_spacing.max_change}};
   json["start"] = start(report.start);
   json["rescue"] = rescue(report);
+  json["periodic"] = periodic(report);
   json["smooth"] = smooth(report);
   json["time"] = time(report);
   json["memory"] = {{"peak_bytes", report.peak_bytes}};

@@ -2,9 +2,11 @@
 #include <camber/associate/by_tags.hpp>
 #include <camber/elevate/order_rules.hpp>
 #include <camber/io/meshlink/meshlink.hpp>
+#include <camber/pipeline/report.hpp>
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,14 @@ enum class Smoothing {
   automatic,  // default
   marching,   // the paper's perturbations along the sensitivities of the cost (2.2.5)
   none
+};
+
+/// Two patches of the mesh by name or surface number, and the motion from the first to the second;
+/// without one, it is found: a translation, or for planar patches the rotation about the line in
+/// which their planes meet.
+struct PeriodicPair {
+  std::string from, to;
+  std::optional<RigidMotion> motion;
 };
 
 /// What links the mesh to the CAD.
@@ -49,6 +59,7 @@ struct CurveOptions {
   LinkBy link_by = LinkBy::automatic;
   io::MeshLink mesh_link;                           // --link FILE
   std::shared_ptr<const SurfaceLink> surface_link;  // set by curve_without_cad()
+  std::vector<PeriodicPair> periodic;               // --periodic
   bool fit = false;            // slide wall nodes until the faces follow the CAD best
   bool split_pinched = false;  // mend cells that no curved wall can leave valid (unpinch.hpp)
   bool allow_invalid = false;  // write even if something is not certified

@@ -49,6 +49,24 @@ struct RescuePlace {
       reason;  // "scaled back", "order lowered", "pinched between faces of one surface", ...
 };
 
+/// x -> R x + t, a rigid motion.
+struct RigidMotion {
+  Mat3 rotation = Mat3::Identity();
+  Vec3 translation = Vec3::Zero();
+  [[nodiscard]] Vec3 operator()(const Vec3& x) const { return rotation * x + translation; }
+};
+
+/// A pair of patches made equal (pipeline/periodic.hpp).
+struct PeriodicRow {
+  std::string from, to;
+  RigidMotion motion;
+  std::size_t faces = 0, edges = 0;
+  double largest_mismatch = 0.0;  // of a linear vertex to its partner's image
+  double largest_change = 0.0;    // of a node of `to` when it took its partner's place
+  std::size_t refused = 0;  // entities left as they were, orders differ or a cell would lose its
+                            // certificate
+};
+
 /// All elastic solves of a run (smooth/elastic.hpp).
 struct ElasticWork {
   std::size_t solves = 0, unconverged = 0;
@@ -65,7 +83,7 @@ struct StartReport {
 
 struct Report {
   std::string command;        // "curve", "check", ...
-  std::string status = "ok";  // ok | not_certified | scaled_back | over_deviation | error
+  std::string status = "ok";  // ok | not_certified | scaled_back | not_periodic | ...
   int exit_code = 0;
   std::vector<std::pair<std::string, std::string>> options;  // effective options, name and value
   struct {
@@ -112,6 +130,7 @@ struct Report {
     Histogram cost{}, scaled_jacobian{};
   } quality;
   StartReport start;
+  std::vector<PeriodicRow> periodic;
   std::vector<SmoothRow> smooth;  // how smoothing went, if it was asked for
   struct {
     std::size_t columns = 0, wall_nodes = 0, first_cell_changed_over_1_percent = 0;

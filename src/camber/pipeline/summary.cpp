@@ -361,6 +361,9 @@ void decide(const CurveResult& result, const Placement& placement, const Wall& w
     report.status = "scaled_back";
   } else if (unplaced > 0 || missed_by_lowering(result, wall, ladder, options) > 0) {
     report.status = "not_on_geometry";
+  } else if (std::any_of(report.periodic.begin(), report.periodic.end(),
+                         [](const PeriodicRow& row) { return row.refused > 0; })) {
+    report.status = "not_periodic";
   } else if (options.strict && report.surface.faces_over_deviation > 0) {
     report.status = "over_deviation";
   }

@@ -261,6 +261,18 @@ void add_start(const Report& report, std::string& out) {
                      s.elastic.solves, s.elastic.products, s.elastic.unconverged);
 }
 
+void add_periodic(const Report& report, std::string& out) {
+  if (report.periodic.empty()) return;
+  out += "\nPeriodic pairs (shapes equal to the bit after the motion)\n";
+  TextTable table;
+  table.add({"from = to", "faces", "edges", "vertices off by", "nodes moved by", "not equal"});
+  for (const PeriodicRow& row : report.periodic) {
+    table.add({row.from + " = " + row.to, number(row.faces), number(row.edges),
+               number(row.largest_mismatch), number(row.largest_change), number(row.refused)});
+  }
+  out += table.text();
+}
+
 void add_rescue(const Report& report, std::string& out) {
   const auto& r = report.rescue;
   if (r.edges_removed + r.pinched_split > 0) {
@@ -342,6 +354,7 @@ std::string text_report(const Report& report) {
   add_conformity(report, out);
   add_wall(report, out);
   add_quality(report, out);
+  add_periodic(report, out);
   add_start(report, out);
   add_rescue(report, out);
   add_smooth(report, out);
