@@ -1,6 +1,7 @@
 // camber curve: the main job, from a linear mesh and its CAD to a certified curved mesh in a file.
 #include <camber/base/error.hpp>
 #include <camber/geom_occ/cad_file.hpp>
+#include <camber/page/page.hpp>
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
 
@@ -25,7 +26,7 @@ struct CurveFlags {
   CurveOptions options;
   std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
                     smoothing = "auto";
-  std::string link = "auto";
+  std::string link = "auto", page;
   bool is_quality_given = false;
   std::vector<std::string> geometry, outputs, patches;
 };
@@ -121,7 +122,11 @@ int run(const CurveFlags& flags) {
   const Clock::time_point begin = Clock::now();
   const CurveOptions options = options_of(flags);
   const std::string& cad = only_geometry(flags.geometry);
-  refuse_overwriting({flags.mesh, cad}, flags.outputs);
+  std::vector<std::string> outputs = flags.outputs;
+  if (!flags.page.empty()) outputs.push_back(flags.page);
+  refuse_overwriting({flags.mesh, cad}, outputs);
+  // A stated format: the name of the page may have any extension.
+  if (!flags.page.empty()) io::check_writable(flags.page, {.format = io::Format::gmsh});
   for (const std::string& path : flags.outputs) io::check_writable(path, flags.format.writing());
 
   ProgressLine line(flags.common.shows_progress());
@@ -156,6 +161,12 @@ int run(const CurveFlags& flags) {
   }
   report.total_s = seconds_since(begin);
   report.peak_bytes = peak_memory();
+  if (!flags.page.empty()) {
+    line.show("page", 1.0);
+    // Written even if the mesh is not: what is not certified wants to be looked at most of all.
+    write_text(flags.page, page_html(page_content(result), geometry.get()));
+    stop_if_interrupted();
+  }
   line.clear();
   return deliver(report, flags.common);
 }
@@ -228,6 +239,9 @@ Verb add_curve(CLI::App& app) {
       ->type_name("OUT")
       ->expected(1)
       ->take_all();
+  verb->add_option("--page", flags->page,
+                   "page to write: the curved mesh and the report as one HTML file (docs/page.md)")
+      ->type_name("PAGE");
   add_order_flags(*verb, *flags);
   add_smoothing_flags(*verb, *flags);
   add_unit_flag(*verb, flags->unit);
