@@ -1,0 +1,67 @@
+// What the mesh can be coloured by. A mode gives every cell (and every point of the surface, if it varies
+// there) a value in [0,1], or -1 where there is none, and says what its legend shows.
+import {categories, maps, orderColours, patchColours, plain, shapeColours} from './colours.js';
+
+const shapeNames = {4: 'tet', 5: 'pyramid', 6: 'prism', 7: 'hex'};
+export const shapeName = (code) => shapeNames[code];
+
+function finiteRange(values) {
+  let low = Infinity, high = -Infinity;
+  for (const v of values) {
+    if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+  }
+  return [low, high];
+}
+
+const middle = (index, count) => (index + 0.5) / count;
+
+function linearMode(name, label, note, values, missing) {
+  const [low] = finiteRange(values);
+  const from = Math.min(Math.floor(low * 20) / 20, 0.95);
+  return {
+    name, label, note, missing, texels: maps.viridis, range: [from, 1], isLog: false,
+    ofCell: (c) => (Number.isFinite(values[c]) ? Math.min(1, Math.max(0, (values[c] - from) / (1 - from))) : -1),
+  };
+}
+
+function deviationMode(points, cells) {
+  const [, high] = finiteRange(points);
+  const positive = Array.from(points).filter((d) => d > 0).sort((a, b) => a - b);
+  // Round-off at nodes that lie on the CAD would stretch the scale over ten decades.
+  const floor = Math.max(positive[Math.floor(positive.length * 0.05)] ?? 1e-12, high * 1e-5);
+  let to = Math.ceil(Math.log10(high > 0 ? high : 1e-12)), from = Math.floor(Math.log10(floor));
+  if (from >= to) from = to - 1;
+  const at = (d) => (Number.isFinite(d) ? Math.min(1, Math.max(0, (Math.log10(Math.max(d, 1e-300)) - from) / (to - from))) : -1);
+  return {
+    name: 'deviation', label: 'Deviation', note: 'distance to the CAD [mesh units], log scale', isLog: true,
+    missing: 'planar, inside, or no CAD', texels: maps.ember, range: [10 ** from, 10 ** to],
+    ofCell: (c) => at(cells[c]), ofPoint: (p) => at(points[p]),
+  };
+}
+
+export function makeModes({arrays, about}) {
+  const highest = Math.max(4, ...new Set(arrays.cell_order));
+  const orders = orderColours.slice(0, highest);
+  const shapes = Object.keys(shapeColours);
+  const list = [{
+    name: 'order', label: 'Order', note: 'polynomial degree of the element', ...categories(orders),
+    entries: orders.map((_, i) => `Q${i + 1}`),
+    ofCell: (c) => middle(arrays.cell_order[c] - 1, highest),
+  }];
+  if (about.has_deviation) list.push(deviationMode(arrays.point_deviation, arrays.cell_deviation));
+  if (arrays.cell_cost.length) list.push(linearMode('cost', 'Cost', 'C = min(1, Jp/Jc)/WCN, lowest in the element: 1 is best', arrays.cell_cost, 'none'));
+  list.push(linearMode('bound', 'Bound', 'certified lower bound of min J / max J: valid above 0', arrays.cell_bound, 'none'));
+  list.push({
+    name: 'shape', label: 'Shape', note: 'shape of the element', ...categories(Object.values(shapeColours)), entries: shapes,
+    ofCell: (c) => middle(shapes.indexOf(shapeName(arrays.cell_shape[c])), shapes.length),
+  });
+  const patches = about.patches.map((_, i) => patchColours[i % patchColours.length]);
+  if (patches.length > 1 && patches.length <= 64) {
+    list.push({
+      name: 'patch', label: 'Patch', note: 'surface patch of the mesh', ...categories(patches), entries: about.patches,
+      ofCell: () => -1, ofFace: (f) => middle(arrays.face_patch[f], patches.length), missing: 'inside',
+    });
+  }
+  list.push({name: 'plain', label: 'Plain', note: '', ...categories([plain]), entries: [], ofCell: () => 0.5});
+  return list;
+}
