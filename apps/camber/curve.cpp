@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <memory>
 
@@ -163,8 +164,9 @@ int run(const CurveFlags& flags) {
   report.peak_bytes = peak_memory();
   if (!flags.page.empty()) {
     line.show("page", 1.0);
+    const std::string title = std::filesystem::path(flags.outputs.front()).filename().string();
     // Written even if the mesh is not: what is not certified wants to be looked at most of all.
-    write_text(flags.page, page_html(page_content(result), geometry.get()));
+    write_text(flags.page, page_html(page_content(result, title), geometry.get()));
     stop_if_interrupted();
   }
   line.clear();

@@ -52,7 +52,8 @@ export function number(x, digits = 4) {
   const size = Math.abs(x);
   if (size >= 1e-3 && size < 1e6) return String(Number(x.toPrecision(digits)));
   const exponent = Math.floor(Math.log10(size));
-  return `${Number((x / 10 ** exponent).toPrecision(digits - 1))}·${power(exponent)}`;
+  const mantissa = Number((x / 10 ** exponent).toPrecision(digits - 1));
+  return mantissa === 1 ? power(exponent) : `${mantissa}·${power(exponent)}`;
 }
 
 export const count = (n) => n.toLocaleString('en').replaceAll(',', '\u202f');

@@ -313,6 +313,8 @@ class App {
       if (down && Math.hypot(e.clientX - down[0], e.clientY - down[1]) < k_click) this.pickAt(e.clientX, e.clientY);
       down = null;
     });
+    // A view that nobody has moved keeps filling the window.
+    this.stage.onResize = () => { if (this.state?.view) this.look(this.state.view); };
     this.stage.onMove = () => {
       if (!this.state) return;
       clearTimeout(this.moved);

@@ -27,8 +27,8 @@ function linearMode(name, label, note, values, missing) {
 function deviationMode(points, cells) {
   const [, high] = finiteRange(points);
   const positive = Array.from(points).filter((d) => d > 0).sort((a, b) => a - b);
-  // Round-off at nodes that lie on the CAD would stretch the scale over ten decades.
-  const floor = Math.max(positive[Math.floor(positive.length * 0.05)] ?? 1e-12, high * 1e-5);
+  // Nodes lie on the CAD: their round-off would stretch the scale over ten decades.
+  const floor = Math.max(positive[Math.floor(positive.length * 0.05)] ?? 1e-12, high * 2e-4);
   let to = Math.ceil(Math.log10(high > 0 ? high : 1e-12)), from = Math.floor(Math.log10(floor));
   if (from >= to) from = to - 1;
   const at = (d) => (Number.isFinite(d) ? Math.min(1, Math.max(0, (Math.log10(Math.max(d, 1e-300)) - from) / (to - from))) : -1);

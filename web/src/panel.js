@@ -33,7 +33,7 @@ export class Panel {
         this.cutRow = el('div', {class: 'sliderrow'}, this.slider, el('button', {title: 'other side', onclick: () => app.flipCut()}, '⇄')),
         this.clipRow = check('clip', 'cut the surface too', (clip) => app.set({clip}))),
       group('Show', check('surface', 'surface', (surface) => app.set({surface})), check('edges', 'element edges', (edges) => app.set({edges}))),
-      group('Linear mesh', buttons('linear', [['off', 'off'], ['edges', 'edges', 'straight edges over the curved surface'], ['surface', 'instead', 'flat faces instead of curved ones']], (linear) => app.set({linear}))),
+      group('Linear', buttons('linear', [['off', 'off'], ['edges', 'edges', 'straight edges over the curved surface'], ['surface', 'instead', 'flat faces instead of curved ones']], (linear) => app.set({linear}))),
       group('View', buttons('view', [['iso', 'iso'], ['x', '+x'], ['-x', '−x'], ['y', '+y'], ['-y', '−y'], ['z', '+z'], ['-z', '−z']], (view) => app.look(view))),
     );
     const {patches} = app.about;

@@ -117,11 +117,22 @@ export class Stage {
     this.schedule();
   }
 
+  /** From `direction`, as near as all corners of the box are still seen. */
   fit(low, high, direction) {
     const centre = low.map((l, d) => (l + high[d]) / 2);
-    const radius = Math.hypot(...low.map((l, d) => high[d] - l)) / 2;
-    const aspect = Math.min(1, this.camera.aspect);
-    this.lookAt(centre, direction, (1.02 * radius) / Math.sin((fieldOfView * Math.PI) / 360) / aspect);
+    const back = new Vector3(...direction).normalize();
+    const right = new Vector3(0, 0, 1).cross(back);
+    if (right.length() < 1e-6) right.set(1, 0, 0);
+    right.normalize();
+    const up = back.clone().cross(right);
+    const tangent = Math.tan((fieldOfView * Math.PI) / 360) * 0.86;
+    let distance = 0;
+    for (let k = 0; k < 8; ++k) {
+      const corner = new Vector3(...low.map((l, d) => (k & (1 << d) ? high[d] : l) - centre[d]));
+      const across = Math.max(Math.abs(corner.dot(up)), Math.abs(corner.dot(right)) / this.camera.aspect);
+      distance = Math.max(distance, corner.dot(back) + across / tangent);
+    }
+    this.lookAt(centre, direction, distance);
   }
 
   eye() {
@@ -140,6 +151,7 @@ export class Stage {
     if (!clientWidth || !clientHeight) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
+    this.onResize?.();
     this.draw();
   }
 

@@ -32,9 +32,8 @@ void main() {
     vec3 light = normalize(vec3(-0.35, 0.55, 1.0));
     float diffuse = max(dot(n, light), 0.0);
     float shine = pow(max(dot(n, normalize(light + toViewer)), 0.0), 60.0);
-    colour *= 0.42 + 0.62 * diffuse;
-    colour += 0.10 * shine;
-    if (lighting == 1 && !gl_FrontFacing) colour *= 0.72;
+    colour *= 0.58 + 0.46 * diffuse;
+    colour += 0.07 * shine;
   }
   gl_FragColor = vec4(colour, opacity);
 }`;

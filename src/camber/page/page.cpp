@@ -24,7 +24,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using detail::Payload;
 
-/// Pieces along an edge when a curved cell is cut; linear tets need no more than one.
+/// Pieces along an edge when a cell is cut. Linear tets need no more than one; the others are not
+/// flat even then: their quadrilaterals are bilinear.
 constexpr int k_cut_level = 4;
 
 std::vector<float> floats(const std::vector<double>& values) {
@@ -236,7 +237,7 @@ class PageWriter {
   }
 
   void add_table(Shape shape, int order) {
-    const int level = order == 1 ? 1 : std::max(order, k_cut_level);
+    const int level = order == 1 && shape == Shape::tetrahedron ? 1 : std::max(order, k_cut_level);
     const MatX& E = elevation_matrix(shape, order, level);
     std::vector<double> matrix;
     for (Eigen::Index r = 0; r < E.rows(); ++r) {
@@ -299,12 +300,12 @@ PageContent page_content(MeshData mesh, CellFindings findings, const Report& rep
   return content;
 }
 
-PageContent page_content(const CurveResult& result) {
+PageContent page_content(const CurveResult& result, const std::string& title) {
   PageContent content;
+  content.title = title;
   ExportMap map;
   content.mesh = export_mesh(*result.curved, 0, &map);
   content.mesh.source = result.report.input.mesh;
-  content.title = std::filesystem::path(result.report.input.mesh).filename().string();
   content.report = json_report(result.report);
   std::size_t element = 0;
   for (const ElementBlock& block : content.mesh.blocks) {

@@ -30,7 +30,7 @@ struct PageOptions {
 [[nodiscard]] PageContent page_content(MeshData mesh, CellFindings findings, const Report& report,
                                        const GeometryModel* geometry);
 /// Content for what curve() made: its own orders and its own link to the CAD.
-[[nodiscard]] PageContent page_content(const CurveResult& result);
+[[nodiscard]] PageContent page_content(const CurveResult& result, const std::string& title);
 
 /// The text of the page. Self-contained: script, style and data are inside, nothing is loaded.
 /// Data: points and normals of the surface (32 and 16 bits, about the centre of the mesh's box),

@@ -8,7 +8,7 @@
 namespace camber {
 
 struct TessellationOptions {
-  double turn = 0.12;  // an edge may turn by this much between two of its points [rad]
+  double turn = 0.08;  // an edge may turn by this much between two of its points [rad]
   int max_level = 16;  // pieces of an edge at most
   std::size_t max_triangles = 500'000;  // above it all faces get fewer pieces
 };
