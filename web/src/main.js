@@ -39,6 +39,7 @@ class App {
     this.clips = () => this.state.clip ?? this.clipsAtFirst;
     this.panel = new Panel(this);
     this.picked = -1;
+    this.stage.linearEdges.material.uniforms.lift.value = 1.5 * this.surface.largestBulge();
     this.listen();
     this.writeTitle();
     this.open(location.hash);
@@ -71,7 +72,7 @@ class App {
       this.look(state.view);
     }
     this.changePick();
-    if (state.fly && this.picked >= 0) this.flyTo(this.picked);
+    if (state.fly && this.picked >= 0) (state.cut ? this.flyTo(this.picked) : this.jump(this.picked));
     this.finish();
   }
 
@@ -80,6 +81,7 @@ class App {
     const cutChanges = 'cut' in change || 'clip' in change;
     Object.assign(this.state, change);
     if ('colour' in change) this.setColours();
+    if ('linear' in change) this.writeLegend();
     if (cutChanges) this.changeCut();
     if ('pick' in change) this.changePick();
     this.changeShown();
@@ -114,13 +116,22 @@ class App {
       for (let p = surface.firstPoint[f]; p < surface.firstPoint[f + 1]; ++p) values[p] = mode.ofPoint ? mode.ofPoint(p) : flat;
     }
     stage.value.needsUpdate = true;
+    this.colourLinear();
     stage.setMap(mode.texels, Boolean(mode.entries));
     if (this.cut) this.showSlice();
     this.writeLegend();
   }
 
+  colourLinear() {
+    const {mode, surface, linear} = this;
+    const of = (f) => (mode.linear ?? mode).ofFace?.(f) ?? mode.ofCell(surface.cell[f]);
+    const values = new Float32Array(3 * linear.face.length);
+    linear.face.forEach((f, t) => values.fill(of(f), 3 * t, 3 * t + 3));
+    this.stage.setLinear(linear.triangles, values);
+  }
+
   writeLegend() {
-    const {mode} = this;
+    const mode = this.state.linear === 'surface' ? {...this.mode, ...this.mode.linear} : this.mode;
     let used = null;
     if (mode.entries && mode.name !== 'patch') {
       used = new Set();
@@ -137,7 +148,6 @@ class App {
     this.linear = surface.linear(shown);
     stage.setIndex(stage.surface, this.triangles.index);
     stage.setIndex(stage.edges, surface.shownEdges(shown));
-    stage.setIndex(stage.linearSurface, this.linear.triangles);
     stage.setIndex(stage.linearEdges, this.linear.lines);
     this.box = surface.boxOf(shown.some(Boolean) ? shown : shown.map(() => true));
     const size = (low, high) => Math.hypot(...low.map((l, d) => high[d] - l));
@@ -214,6 +224,7 @@ class App {
     this.state.hide = this.about.patches.filter((_, k) => !this.shown[k]);
     this.changePatches();
     this.changeCut();
+    this.colourLinear();
     this.writeLegend();
     this.finish();
   }
@@ -271,7 +282,8 @@ class App {
     if (this.state.cut) d = Math.max(0, 'xyz'.indexOf(this.state.cut.name.replace('-', '')));
     const {low, high} = this.volume;
     const at = (this.volume.centre(c)[d] - low[d]) / (high[d] - low[d]);
-    this.set({cut: parseCut(`${eye[d] < 0 ? '-' : ''}${'xyz'[d]}:${at}`)});
+    // The surface is cut too: it could stand before the element.
+    this.set({cut: parseCut(`${eye[d] < 0 ? '-' : ''}${'xyz'[d]}:${at}`), clip: true});
   }
 
   flyTo(c) {
@@ -286,8 +298,9 @@ class App {
       const length = Math.hypot(...sum) || 1;
       direction = direction.map((x, d) => sum[d] / length + (0.35 * x) / Math.hypot(...direction));
     }
+    if (f < 0 && this.cut) direction = direction.map((x, d) => this.cut.n[d] + (0.5 * x) / Math.hypot(...direction));
     this.state.view = null;
-    this.stage.lookAt(this.volume.centre(c), direction, 7 * this.volume.size(c));
+    this.stage.lookAt(this.volume.centre(c), direction, 4.5 * this.volume.size(c));
     this.finish();
   }
 
@@ -296,8 +309,10 @@ class App {
     const plane = this.cut && this.clips() ? this.cut : null;
     const isHidden = plane && ((px, py, pz) => dot(plane.n, [px, py, pz]) > plane.d);
     const {state, arrays} = this;
-    const mesh = state.linear === 'surface' ? {index: this.linear.triangles, face: this.linear.face} : this.triangles;
-    const onSurface = state.surface ? nearestHit(ray, arrays.point, mesh.index, isHidden) : null;
+    const isFlat = state.linear === 'surface';
+    const mesh = isFlat ? this.linear : this.triangles;
+    const onSurface = !state.surface ? null
+      : isFlat ? nearestHit(ray, mesh.triangles, null, isHidden) : nearestHit(ray, arrays.point, mesh.index, isHidden);
     const onCut = this.cut ? nearestHit(ray, this.cut.triangles, null, null) : null;
     let c = -1;
     if (onCut && (!onSurface || onCut.t < onSurface.t)) c = this.cut.cells[onCut.triangle];

@@ -24,18 +24,28 @@ function linearMode(name, label, note, values, missing) {
   };
 }
 
-function deviationMode(points, cells) {
-  const [, high] = finiteRange(points);
-  const positive = Array.from(points).filter((d) => d > 0).sort((a, b) => a - b);
+/** Decades that hold nearly all values: [from, to]. */
+function decades(values) {
+  const positive = Array.from(values).filter((d) => d > 0).sort((a, b) => a - b);
+  const high = positive.at(-1) ?? 1e-12;
   // Nodes lie on the CAD: their round-off would stretch the scale over ten decades.
   const floor = Math.max(positive[Math.floor(positive.length * 0.05)] ?? 1e-12, high * 2e-4);
-  let to = Math.ceil(Math.log10(high > 0 ? high : 1e-12)), from = Math.floor(Math.log10(floor));
-  if (from >= to) from = to - 1;
-  const at = (d) => (Number.isFinite(d) ? Math.min(1, Math.max(0, (Math.log10(Math.max(d, 1e-300)) - from) / (to - from))) : -1);
+  const to = Math.ceil(Math.log10(high));
+  return [Math.min(Math.floor(Math.log10(floor)), to - 1), to];
+}
+
+function deviationMode(points, cells, linear) {
+  const scale = ([from, to]) => ({
+    range: [10 ** from, 10 ** to],
+    at: (d) => (Number.isFinite(d) ? Math.min(1, Math.max(0, (Math.log10(Math.max(d, 1e-300)) - from) / (to - from))) : -1),
+  });
+  const curved = scale(decades(points)), flat = scale(decades(linear));
   return {
     name: 'deviation', label: 'Deviation', note: 'distance to the CAD [mesh units], log scale', isLog: true,
-    missing: 'planar, inside, or no CAD', texels: maps.ember, range: [10 ** from, 10 ** to],
-    ofCell: (c) => at(cells[c]), ofPoint: (p) => at(points[p]),
+    missing: 'planar, inside, or no CAD', texels: maps.ember, range: curved.range,
+    ofCell: (c) => curved.at(cells[c]), ofPoint: (p) => curved.at(points[p]),
+    // The flat faces miss by far more: they have a scale of their own.
+    linear: {note: 'largest distance of the linear faces to the CAD [mesh units], log scale', range: flat.range, ofFace: (f) => flat.at(linear[f])},
   };
 }
 
@@ -48,7 +58,7 @@ export function makeModes({arrays, about}) {
     entries: orders.map((_, i) => `Q${i + 1}`),
     ofCell: (c) => middle(arrays.cell_order[c] - 1, highest),
   }];
-  if (about.has_deviation) list.push(deviationMode(arrays.point_deviation, arrays.cell_deviation));
+  if (about.has_deviation) list.push(deviationMode(arrays.point_deviation, arrays.cell_deviation, arrays.face_linear_deviation));
   if (arrays.cell_cost.length) list.push(linearMode('cost', 'Cost', 'C = min(1, Jp/Jc)/WCN, lowest in the element: 1 is best', arrays.cell_cost, 'none'));
   list.push(linearMode('bound', 'Bound', 'certified lower bound of min J / max J: valid above 0', arrays.cell_bound, 'none'));
   list.push({

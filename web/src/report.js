@@ -4,15 +4,20 @@ import {count, el, facts, number, table} from './dom.js';
 const percent = (a, b) => (b > 0 ? `${number((100 * a) / b, 3)} %` : '–');
 const bytes = (n) => (n ? `${number(n / 2 ** 20, 3)} MiB` : '');
 
+/** A path that may be broken after its slashes. */
+const breakable = (path) => path && el('span', {}, path.split(/(?<=\/)/).flatMap((part) => [part, el('wbr')]));
+
 function surfaceTables({surface}) {
   if (!surface?.faces) return [];
   const head = ['', 'faces', 'average', 'maximum', 'linear average', 'linear maximum'];
   const row = (name, r) => [name, count(r.faces), ...[r.average, r.maximum, r.linear_average, r.linear_maximum].map((x) => number(x, 3))];
-  const total = {...surface};
+  const names = surface.by_group.map((r) => r.name);
+  // Several CAD faces may carry one name.
+  const nameOf = (r) => (names.filter((n) => n === r.name).length > 1 ? `${r.name} ${r.cad.join(' ')}` : r.name);
   return [
     el('h3', {}, 'Surface error by group'),
     el('p', {class: 'note'}, 'Shape conformity: distance to the CAD averaged over the area, and largest, of the curved and of the linear faces [mesh units]. Planar CAD faces are left out.'),
-    table(head, [...surface.by_group.map((r) => row(r.name, r)), row('all', total)]),
+    table(head, [...surface.by_group.map((r) => row(nameOf(r), r)), row('all', surface)]),
     el('h3', {}, 'Surface error by order'),
     table(head, surface.by_order.map((r) => row(`Q${r.order}`, r))),
   ];
@@ -38,7 +43,8 @@ export function reportTab(report, about) {
   return [
     facts([
       ['status', el('span', {class: report.status === 'ok' ? 'good' : 'bad'}, report.status)],
-      ['mesh', report.input?.mesh], ['CAD', report.input?.geometry?.join(', ')], ['written', report.command === 'curve' ? report.output?.path : ''],
+      ['mesh', breakable(report.input?.mesh)], ['CAD', breakable(report.input?.geometry?.join(', '))],
+      ['written', breakable(report.command === 'curve' ? report.output?.path : '')],
       ['certified', v && `${count(v.certified)} of ${count(v.certified + v.invalid + v.undecided)} cells`],
       ['invalid, undecided', v && v.invalid + v.undecided > 0 ? `${count(v.invalid)}, ${count(v.undecided)}` : ''],
       ['lowest bound of min J / max J', v && number(v.min_scaled_jacobian)],

@@ -54,13 +54,13 @@ export class Stage {
     const empty = () => geometryOf(new Float32Array(0));
     this.surface = faces(geometryOf(this.position, shared), {lighting: 1});
     this.edges = lines(geometryOf(this.position), {colour: '#1c2733', opacity: 0.75});
-    this.linearSurface = faces(geometryOf(this.position, shared), {lighting: 2});
-    this.linearEdges = lines(geometryOf(this.position), {colour: '#c2185b', opacity: 0.9, lift: 2e-5});
+    this.linearSurface = faces(empty(), {lighting: 2});
+    this.linearEdges = lines(geometryOf(this.position), {colour: '#c2185b', opacity: 0.9});
     this.slice = faces(empty(), {lighting: 0});
     this.sliceEdges = lines(empty(), {colour: '#1c2733', opacity: 0.55});
     this.pickFaces = faces(empty(), {lighting: 0, opacity: 0.35});
     this.pickFaces.material.uniforms.missing.value.setRGB(1, 0.1, 0.5);
-    this.pickLines = lines(empty(), {colour: '#e0006c', lift: 0});
+    this.pickLines = lines(empty(), {colour: '#e0006c'});
     for (const [object, order] of [[this.pickFaces, 5], [this.pickLines, 6]]) {
       object.renderOrder = order;
       object.material.depthTest = false;
@@ -85,6 +85,10 @@ export class Stage {
   replace(object, positions, extra) {
     object.geometry.dispose();
     object.geometry = geometryOf(positions, extra);
+  }
+
+  setLinear(triangles, values) {
+    this.replace(this.linearSurface, triangles, {value: new BufferAttribute(values, 1)});
   }
 
   setPlane(plane) {

@@ -32,19 +32,21 @@ void main() {
     vec3 light = normalize(vec3(-0.35, 0.55, 1.0));
     float diffuse = max(dot(n, light), 0.0);
     float shine = pow(max(dot(n, normalize(light + toViewer)), 0.0), 60.0);
-    colour *= 0.58 + 0.46 * diffuse;
+    colour *= 0.64 + 0.40 * diffuse;
     colour += 0.07 * shine;
   }
   gl_FragColor = vec4(colour, opacity);
 }`;
 
 const lineVertex = `
-uniform float lift;
+uniform float lift;  // length by which lines are seen through what covers them
 varying vec3 vWorld;
 void main() {
   vWorld = position;
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  gl_Position.z -= lift * gl_Position.w;
+  vec4 eye = modelViewMatrix * vec4(position, 1.0);
+  eye.xyz *= 1.0 - min(lift / length(eye.xyz), 0.5);
+  gl_Position = projectionMatrix * eye;
+  gl_Position.z -= 1e-5 * gl_Position.w;
 }`;
 
 const lineFragment = `
@@ -72,7 +74,7 @@ export function faceMaterial({map, lighting, opacity = 1}) {
   });
 }
 
-export function lineMaterial({colour, opacity = 1, lift = 1e-5}) {
+export function lineMaterial({colour, opacity = 1, lift = 0}) {
   return new ShaderMaterial({
     vertexShader: lineVertex, fragmentShader: lineFragment, transparent: opacity < 1,
     uniforms: {plane: {value: nowhere()}, colour: {value: rawColour(colour)}, opacity: {value: opacity}, lift: {value: lift}},

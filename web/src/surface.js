@@ -108,20 +108,35 @@ export class Surface {
     return Uint32Array.from(pairs);
   }
 
-  /** Straight edges and flat faces through the corners. */
+  /** Straight edges and flat faces through the corners: {lines, triangles as coordinates, face by triangle}. */
   linear(shown) {
-    const lines = [], triangles = [], face = [];
+    const lines = [], corners = [], face = [];
     for (let f = 0; f < this.faceCount; ++f) {
       if (!shown[this.patch[f]]) continue;
       const c = this.cornerPoints(f);
       c.forEach((p, k) => lines.push(p, c[(k + 1) % c.length]));
-      triangles.push(c[0], c[1], c[2]);
-      face.push(f);
-      if (c.length === 4) {
-        triangles.push(c[0], c[2], c[3]);
+      for (let k = 2; k < c.length; ++k) {
+        corners.push(c[0], c[k - 1], c[k]);
         face.push(f);
       }
     }
-    return {lines: Uint32Array.from(lines), triangles: Uint32Array.from(triangles), face: Uint32Array.from(face)};
+    const triangles = new Float32Array(3 * corners.length);
+    corners.forEach((p, i) => triangles.set(this.points.subarray(3 * p, 3 * p + 3), 3 * i));
+    return {lines: Uint32Array.from(lines), triangles, face: Uint32Array.from(face)};
+  }
+
+  /** Largest distance of a side's middle from the middle of its chord. */
+  largestBulge() {
+    let largest = 0;
+    const {points: x} = this;
+    for (let f = 0; f < this.faceCount; ++f) {
+      for (let k = 0; k < this.corners[f] && this.level[f] > 1; ++k) {
+        const nodes = this.sideOf(f, k);
+        const [a, m, b] = [0, nodes.length >> 1, nodes.length - 1].map((i) => 3 * (this.firstPoint[f] + nodes[i]));
+        const w = (nodes.length >> 1) / (nodes.length - 1);
+        largest = Math.max(largest, Math.hypot(...[0, 1, 2].map((d) => x[m + d] - (1 - w) * x[a + d] - w * x[b + d])));
+      }
+    }
+    return largest;
   }
 }

@@ -17,6 +17,17 @@ double distance(Projector& projector, const GeometryGroup& group, const Vec3& x,
   return foot.distance;
 }
 
+/// The face of order 1 with the same corners.
+Points linear_nodes(Shape shape, int order, const Points& nodes) {
+  const std::vector<int>& from = lattice_map(shape, order).corner;
+  const std::vector<int>& to = lattice_map(shape, 1).corner;
+  Points flat(to.size());
+  for (std::size_t c = 0; c < to.size(); ++c) {
+    flat[static_cast<std::size_t>(to[c])] = nodes[static_cast<std::size_t>(from[c])];
+  }
+  return flat;
+}
+
 }  // namespace
 
 bool is_curved(const GeometryGroup& group, const GeometryModel& geometry) {
@@ -31,6 +42,7 @@ SurfaceDeviation surface_deviation(const ElementList& cells, const std::vector<B
                                    const GeometryModel& geometry) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   SurfaceDeviation result{std::vector<double>(faces.size(), nan),
+                          std::vector<double>(faces.size(), nan),
                           std::vector<double>(tessellation.points.size(), nan)};
   parallel_for_with(
       faces.size(), 32, [&] { return geometry.projector(); },
@@ -42,6 +54,8 @@ SurfaceDeviation surface_deviation(const ElementList& cells, const std::vector<B
           result.face[f] =
               measure_face(*projector, groups[f], shape, cells.order(faces[f].cell), nodes, nullptr)
                   .maximum;
+          const Points flat = linear_nodes(shape, cells.order(faces[f].cell), nodes);
+          result.linear[f] = measure_face(*projector, groups[f], shape, 1, flat, nullptr).maximum;
           std::optional<Vec2> seed;
           for (std::size_t i = tessellation.first_point[f]; i < tessellation.first_point[f + 1];
                ++i) {

@@ -9,8 +9,9 @@ namespace camber {
 
 /// Distances of the surface to its CAD [length]; NaN where a face has no CAD or only planar one.
 struct SurfaceDeviation {
-  std::vector<double> face;   // largest at the Gauss points, as in the report
-  std::vector<double> point;  // by point of the tessellation
+  std::vector<double> face;    // largest at the Gauss points, as in the report
+  std::vector<double> linear;  // the same of the flat faces through the corners
+  std::vector<double> point;   // by point of the tessellation
 };
 
 /// @param groups  by face: the CAD faces it lies on; empty for none

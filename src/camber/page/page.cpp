@@ -169,6 +169,7 @@ class PageWriter {
     if (!has_deviation_) return;
     const SurfaceDeviation deviation = surface_deviation(cells_, faces_, group, t, *geometry_);
     payload_.add("point_deviation", floats(deviation.point));
+    payload_.add("face_linear_deviation", floats(deviation.linear));
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       float& worst = cell_deviation_[faces_[f].cell];
       // A comparison with NaN is false: the first number replaces it.
