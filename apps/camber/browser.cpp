@@ -70,16 +70,16 @@ std::string file_address(const fs::path& path) {
   return address;
 }
 
-/// Runs a program in its own process group, its words thrown away. @return its exit status, or -1
-/// if it was ended for taking too long
-int run_quietly(const std::vector<std::string>& command) {
+/// Runs a program in its own process group; what it prints goes to a file. @return its exit status,
+/// or -1 if it was ended for taking too long
+int run_quietly(const std::vector<std::string>& command, const fs::path& output) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&files, 1, output.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -102,6 +102,13 @@ int run_quietly(const std::vector<std::string>& command) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+std::string read_all(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
 }
 
 }  // namespace
@@ -151,16 +158,28 @@ void take_picture(const std::string& browser, const std::string& page, const std
                                    "--force-device-scale-factor=1",
                                    "--user-data-dir=" + (folder.path() / "profile").string(),
                                    fmt::format("--window-size={},{}", size.width, size.height),
-                                   "--screenshot=" + shot.string()};
+                                   "--screenshot=" + shot.string(),
+                                   "--dump-dom"};
   // Chromium refuses to run as root inside its sandbox; the page is our own and loads nothing.
   if (geteuid() == 0) command.emplace_back("--no-sandbox");
   command.push_back(file_address(page) + "#picture=1&" + state);
-  const int status = run_quietly(command);
+  const fs::path shown = folder.path() / "shown.html";
+  const int status = run_quietly(command, shown);
   if (status != 0 || !fs::exists(shot) || fs::file_size(shot) == 0) {
     throw FileError(
         status == -1 ? fmt::format("{} took over {} s to draw the picture", browser, k_patience_s)
                      : fmt::format("{} made no picture (exit code {})", browser, status),
         png, "open the page (-o PAGE.html) in a browser instead");
+  }
+  // The page itself says whether it could draw what was asked for.
+  const std::string text = read_all(shown);
+  const std::size_t body = text.find("<body");
+  const std::string state_of_page =
+      body == std::string::npos ? "" : text.substr(body, text.find('>', body) - body);
+  if (state_of_page.find("data-ready=\"1\"") == std::string::npos ||
+      state_of_page.find("data-errors") != std::string::npos) {
+    throw FileError(fmt::format("the page could not be drawn by {}", browser), png,
+                    "open the page (-o PAGE.html) in a browser: it says what is wrong");
   }
   io::write_atomically(png, [&](const std::string& temporary) {
     std::ifstream in(shot, std::ios::binary);

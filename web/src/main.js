@@ -329,7 +329,7 @@ class App {
       down = null;
     });
     // A view that nobody has moved keeps filling the window.
-    this.stage.onResize = () => { if (this.state?.view) this.look(this.state.view); };
+    this.stage.onResize = () => { if (this.box && this.state?.view) this.look(this.state.view); };
     this.stage.onMove = () => {
       if (!this.state) return;
       clearTimeout(this.moved);
@@ -373,5 +373,5 @@ try {
   document.body.dataset.ready = '1';
 } catch (error) {
   note(error.stack ?? error);
-  document.getElementById('notice').append(el('p', {}, `This page cannot be shown: ${error.message}. A browser with WebGL 2 is needed.`));
+  document.getElementById('notice').append(el('p', {}, `This page cannot be shown (a browser with WebGL 2 is needed): ${error.message}`));
 }
