@@ -260,6 +260,17 @@ class App {
 
   moveCut(at) { this.set({cut: {...this.state.cut, at}}); }
 
+  /** While the slider moves: one cut a frame, however many events come. */
+  dragCut(at) {
+    if (this.draggedTo === undefined) {
+      requestAnimationFrame(() => {
+        this.moveCut(this.draggedTo);
+        this.draggedTo = undefined;
+      });
+    }
+    this.draggedTo = at;
+  }
+
   flipCut() {
     const {cut} = this.state;
     const isAxis = ['x', 'y', 'z'].includes(cut.name.replace('-', ''));

@@ -26,7 +26,7 @@ export class Panel {
       entries.map(([value, text, title]) => el('button', {'data-value': value, title: title ?? '', onclick: () => act(value)}, text)));
     const check = (key, text, act) => el('label', {class: 'check'}, el('input', {type: 'checkbox', 'data-check': key, onchange: (e) => act(e.target.checked)}), text);
     this.slider = el('input', {type: 'range', min: 0, max: 1, step: 0.001, 'aria-label': 'place of the cut',
-      oninput: (e) => app.moveCut(Number(e.target.value))});
+      oninput: (e) => app.dragCut(Number(e.target.value))});
     this.controls.append(
       group('Colour', buttons('colour', app.modes.map((m) => [m.name, m.label, m.note]), (colour) => app.set({colour}))),
       group('Cut', buttons('cut', [['', 'off'], ['x', 'X'], ['y', 'Y'], ['z', 'Z'], ['screen', 'Screen', 'across the line of sight']], (axis) => app.chooseCut(axis)),

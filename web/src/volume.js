@@ -87,7 +87,7 @@ export class Volume {
     for (let i = 0; i < distance.length; ++i) {
       distance[i] = n[0] * points[3 * i] + n[1] * points[3 * i + 1] + n[2] * points[3 * i + 2] - d;
     }
-    const made = {triangles: [], cells: [], lines: []};
+    const made = {triangles: new Growing(Float32Array), cells: new Growing(Uint32Array), lines: new Growing(Float32Array)};
     const x = new Float64Array(3 * 1024), s = new Float64Array(1024);
     for (let c = 0; c < this.cellCount; ++c) {
       let low = Infinity, high = -Infinity;
@@ -102,38 +102,64 @@ export class Volume {
       for (let r = 0; r < t.points; ++r) s[r] = n[0] * x[3 * r] + n[1] * x[3 * r + 1] + n[2] * x[3 * r + 2] - d;
       cutCell(t, c, x, s, made);
     }
-    return {triangles: Float32Array.from(made.triangles), cells: Uint32Array.from(made.cells), lines: Float32Array.from(made.lines)};
+    return {triangles: made.triangles.take(), cells: made.cells.take(), lines: made.lines.take()};
   }
 }
 
+/** Numbers of an unknown count, in one typed array that grows. */
+class Growing {
+  constructor(Type) {
+    this.values = new Type(1 << 14);
+    this.count = 0;
+  }
+
+  push(x) {
+    if (this.count === this.values.length) {
+      const larger = new this.values.constructor(2 * this.count);
+      larger.set(this.values);
+      this.values = larger;
+    }
+    this.values[this.count++] = x;
+  }
+
+  take() { return this.values.slice(0, this.count); }
+}
+
+// By which corners lie above the plane (bit i: corner i): the corner that is alone and the other three, or the
+// two above and the two below.
+const tetCases = Array.from({length: 16}, (_, mask) => {
+  const up = [0, 1, 2, 3].filter((i) => mask & (1 << i)), down = [0, 1, 2, 3].filter((i) => !(mask & (1 << i)));
+  if (up.length === 0 || down.length === 0) return null;
+  return {isSplitEvenly: up.length === 2, corners: up.length === 3 ? [...down, ...up] : [...up, ...down]};
+});
+
 function cutCell(t, c, x, s, made) {
+  const {tets, skin} = t;
   const cross = (a, b, list) => {
     const w = s[a] / (s[a] - s[b]);
     for (let d = 0; d < 3; ++d) list.push(x[3 * a + d] + w * (x[3 * b + d] - x[3 * a + d]));
   };
-  const above = (i) => s[i] >= 0;
-  for (let k = 0; k < t.tets.length; k += 4) {
-    const up = [], down = [];
-    for (let i = 0; i < 4; ++i) (above(t.tets[k + i]) ? up : down).push(t.tets[k + i]);
-    if (up.length === 0 || down.length === 0) continue;
+  for (let k = 0; k < tets.length; k += 4) {
+    const mask = (s[tets[k]] >= 0 ? 1 : 0) | (s[tets[k + 1]] >= 0 ? 2 : 0) | (s[tets[k + 2]] >= 0 ? 4 : 0) | (s[tets[k + 3]] >= 0 ? 8 : 0);
+    const found = tetCases[mask];
+    if (!found) continue;
+    const a = tets[k + found.corners[0]], b = tets[k + found.corners[1]], e = tets[k + found.corners[2]], f = tets[k + found.corners[3]];
     const list = made.triangles;
-    if (up.length !== 2) {
-      const [one, three] = up.length === 1 ? [up[0], down] : [down[0], up];
-      for (const other of three) cross(one, other, list);
-      made.cells.push(c);
+    made.cells.push(c);
+    if (!found.isSplitEvenly) {
+      cross(a, b, list); cross(a, e, list); cross(a, f, list);
     } else {
-      const [a, b] = up, [e, f] = down;
+      made.cells.push(c);
       cross(a, e, list); cross(a, f, list); cross(b, f, list);
       cross(a, e, list); cross(b, f, list); cross(b, e, list);
-      made.cells.push(c, c);
     }
   }
-  for (let k = 0; k < t.skin.length; k += 3) {
-    const up = [], down = [];
-    for (let i = 0; i < 3; ++i) (above(t.skin[k + i]) ? up : down).push(t.skin[k + i]);
-    if (up.length === 0 || down.length === 0) continue;
-    const [one, two] = up.length === 1 ? [up[0], down] : [down[0], up];
-    cross(one, two[0], made.lines);
-    cross(one, two[1], made.lines);
+  for (let k = 0; k < skin.length; k += 3) {
+    const p = skin[k], q = skin[k + 1], r = skin[k + 2];
+    const up = s[p] >= 0, uq = s[q] >= 0, ur = s[r] >= 0;
+    if (up === uq && uq === ur) continue;
+    if (up !== uq) cross(p, q, made.lines);
+    if (uq !== ur) cross(q, r, made.lines);
+    if (ur !== up) cross(r, p, made.lines);
   }
 }

@@ -24,8 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using detail::Payload;
 
-/// Pieces along an edge when a cell is cut. Linear tets need no more than one; the others are not
-/// flat even then: their quadrilaterals are bilinear.
+/// Pieces along an edge when a curved cell is cut.
 constexpr int k_cut_level = 4;
 
 std::vector<float> floats(const std::vector<double>& values) {
@@ -237,8 +236,14 @@ class PageWriter {
     for (const auto& [shape, order] : kinds) add_table(shape, order);
   }
 
+  /// Linear tets are flat; the quadrilaterals of other linear cells are bilinear, but little so.
+  [[nodiscard]] int cut_level(Shape shape, int order) const {
+    if (order > 1) return std::max(order, k_cut_level);
+    return shape == Shape::tetrahedron || corners_only_ ? 1 : 2;
+  }
+
   void add_table(Shape shape, int order) {
-    const int level = order == 1 && shape == Shape::tetrahedron ? 1 : std::max(order, k_cut_level);
+    const int level = cut_level(shape, order);
     const MatX& E = elevation_matrix(shape, order, level);
     std::vector<double> matrix;
     for (Eigen::Index r = 0; r < E.rows(); ++r) {
