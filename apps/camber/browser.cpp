@@ -20,8 +20,6 @@
 
 #include "console.hpp"
 
-extern char** environ;
-
 namespace camber::app {
 namespace {
 
@@ -74,6 +72,7 @@ std::string file_address(const fs::path& path) {
 /// or -1 if it was ended for taking too long
 int run_quietly(const std::vector<std::string>& command, const fs::path& output) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t files;

@@ -166,7 +166,11 @@ int run(const CurveFlags& flags) {
     line.show("page", 1.0);
     const std::string title = std::filesystem::path(flags.outputs.front()).filename().string();
     // Written even if the mesh is not: what is not certified wants to be looked at most of all.
+    const Clock::time_point start = Clock::now();
     write_text(flags.page, page_html(page_content(result, title), geometry.get()));
+    // The page shows the report as it was before.
+    report.stages_s.emplace_back("page", seconds_since(start));
+    report.total_s = seconds_since(begin);
     stop_if_interrupted();
   }
   line.clear();

@@ -78,6 +78,7 @@ try {
   app.showPatch(app.about.patches.indexOf('far'), true);
   found.withFar = picture().hash;
 } catch (error) { found.thrown = String(error.stack); }
+found.loaded = performance.getEntriesByType('resource').map((r) => r.name);
 found.errors = JSON.parse(document.body.dataset.errors ?? '[]');
 const result = document.createElement('pre');
 result.id = 'found';
@@ -119,6 +120,7 @@ def used_page(program, page, folder):
 def judge(found):
     expect("thrown" not in found, found.get("thrown"))
     expect(found["errors"] == [], f"console errors: {found['errors']}")
+    expect(found["loaded"] == [], f"the page loads {found['loaded']}")
     expect(found["first"]["drawn"] > 0.1 and found["first"]["colours"] > 50, f"blank canvas: {found['first']}")
     modes = found["modes"]
     expect({"order", "deviation", "cost", "bound"} <= set(modes), f"modes: {sorted(modes)}")

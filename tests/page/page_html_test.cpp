@@ -1,10 +1,12 @@
 #include <camber/base/error.hpp>
+#include <camber/base/parallel.hpp>
 #include <camber/geom/analytic_model.hpp>
 #include <camber/io/base64.hpp>
 #include <camber/page/page.hpp>
 
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <regex>
 
 #include <gmock/gmock.h>
@@ -80,6 +82,43 @@ TEST(PageHtml, PointsOfTheSurfaceLieOnTheMesh) {
   for (std::size_t i = 0; i < x.size(); i += 3) {
     EXPECT_NEAR(std::hypot(x[i], x[i + 1], x[i + 2]), 1.0, 0.01);
   }
+}
+
+TEST(PageHtml, ShowsHowFarTheSurfaceIsFromTheCad) {
+  // Linear faces on the unit sphere: each misses by 1 minus the distance of its nearest points, the
+  // curved ones by far less. Only "top" has a surface element, and so a CAD face.
+  const std::unique_ptr<GeometryModel> sphere = make_sphere(Vec3::Zero(), 1.0);
+  const auto largest = [&](int order) {
+    PageContent content = content_of(test::round_block(2, order));
+    content.surface_groups.assign(4, GeometryGroup{{2, 1}});
+    const std::string page = page_html(content, sphere.get());
+    EXPECT_TRUE(about(page)["has_deviation"]);
+    double cell = 0.0, point = 0.0, linear = 0.0;
+    for (float d : floats(page, "cell_deviation")) cell = std::fmax(cell, d);  // NaN is left out
+    for (float d : floats(page, "point_deviation")) point = std::fmax(point, d);
+    for (float d : floats(page, "face_linear_deviation")) linear = std::fmax(linear, d);
+    EXPECT_LE(point, 1.3 * cell);  // Gauss points and lattice points see nearly the same
+    EXPECT_GE(point, 0.7 * cell);
+    return std::pair(cell, linear);
+  };
+
+  const auto [flat, flat_linear] = largest(1);
+  const auto [curved, curved_linear] = largest(3);
+
+  EXPECT_FLOAT_EQ(static_cast<float>(flat), static_cast<float>(flat_linear));
+  EXPECT_FLOAT_EQ(static_cast<float>(flat), static_cast<float>(curved_linear));
+  EXPECT_GT(flat, 0.05);
+  EXPECT_LT(curved, 0.02 * flat);
+}
+
+TEST(PageHtml, IsTheSameForAnyNumberOfThreads) {
+  const PageContent content = content_of(test::round_block(3, 2));
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return page_html(content, nullptr);
+  };
+
+  EXPECT_TRUE(run(1) == run(2));
 }
 
 TEST(PageHtml, LoadsNothingFromOutside) {

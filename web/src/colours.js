@@ -1,10 +1,12 @@
-// Colour maps, as 256 RGBA texels each. Scalars: equal steps look equal, and differ without hue too.
-const viridis = ['#440154', '#482878', '#3e4989', '#31688e', '#26828e', '#1f9e89', '#35b779', '#6ece58', '#b5de2b', '#fde725'];
+// Colour maps, as 256 RGBA texels each. Scalars: lightness rises or falls all the way, so that
+// they read without hue too; dark is what wants attention.
+const lagoon = ['#27102f', '#3a2a63', '#38548f', '#3a82a8', '#52adb0', '#8fd2b6', '#d3edd2', '#f6faee'];
 const ember = ['#f8f1e0', '#fbdc9f', '#fabb66', '#f3925a', '#e0655f', '#bd4070', '#8c2a78', '#571d6b', '#2b1150'];
 export const orderColours = ['#c3cad4', '#4d9ad0', '#f0a93b', '#cf4a5c', '#7d5ba6', '#4f9d69', '#8c6d4f', '#e58bb5'];
 export const shapeColours = {tet: '#6f9fd0', pyramid: '#f0a93b', prism: '#6dbb85', hex: '#9a7fb8'};
 export const patchColours = ['#8fb4d6', '#e8b67a', '#93c6a3', '#d59aa6', '#b3a3d0', '#c9c48b', '#8cc5c9', '#c7a48f'];
 export const plain = '#b9c6d6';
+export const alarm = '#e3002b';
 
 function rgb(hex) {
   return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
@@ -30,7 +32,7 @@ function steps(list) {
   return texels;
 }
 
-export const maps = {viridis: ramp(viridis), ember: ramp(ember)};
+export const maps = {lagoon: ramp(lagoon), ember: ramp(ember)};
 export const categories = (colours) => ({texels: steps(colours), colours});
 
 /** CSS gradient of a ramp, left to right. */

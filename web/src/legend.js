@@ -5,7 +5,7 @@ import {el, number, power} from './dom.js';
 export function legend(mode, used) {
   if (mode.name === 'plain') return [];
   const head = [el('b', {}, mode.label), el('span', {class: 'note'}, mode.note)];
-  const missing = mode.missing && mode.missing !== 'none' ? swatch('#d9dde3', mode.missing) : null;
+  const missing = mode.missing ? swatch('#d9dde3', mode.missing) : mode.alarm ? swatch(...mode.alarm) : null;
   if (mode.entries) {
     const list = mode.entries.map((name, i) => (used && !used.has(i) ? null : swatch(mode.colours[i], name)));
     return [...head, el('div', {class: 'swatches'}, list, missing)];

@@ -1,6 +1,7 @@
 // What the mesh can be coloured by. A mode gives every cell (and every point of the surface, if it varies
-// there) a value in [0,1], or -1 where there is none, and says what its legend shows.
-import {categories, maps, orderColours, patchColours, plain, shapeColours} from './colours.js';
+// there) a value in [0,1], or -1 where there is none, or -2 where it is
+// an alarm, and says what its legend shows.
+import {alarm, categories, maps, orderColours, patchColours, plain, shapeColours} from './colours.js';
 
 const shapeNames = {4: 'tet', 5: 'pyramid', 6: 'prism', 7: 'hex'};
 export const shapeName = (code) => shapeNames[code];
@@ -15,12 +16,15 @@ function finiteRange(values) {
 
 const middle = (index, count) => (index + 0.5) / count;
 
-function linearMode(name, label, note, values, missing) {
-  const [low] = finiteRange(values);
-  const from = Math.min(Math.floor(low * 20) / 20, 0.95);
+/** Values up to 1; those of 0 and less, which no valid element has, get the colour of alarm. */
+function linearMode(name, label, note, alarmText, values) {
+  const positive = values.filter((v) => v > 0);
+  const [low] = finiteRange(positive);
+  const from = Math.max(0, Math.min(Math.floor(low * 20) / 20, 0.95));
+  const bad = values.reduce((n, v) => n + (v <= 0), 0);
   return {
-    name, label, note, missing, texels: maps.viridis, range: [from, 1], isLog: false,
-    ofCell: (c) => (Number.isFinite(values[c]) ? Math.min(1, Math.max(0, (values[c] - from) / (1 - from))) : -1),
+    name, label, note, alarm: bad > 0 ? [alarm, `${alarmText}: ${bad}`] : null, texels: maps.lagoon, range: [from, 1], isLog: false,
+    ofCell: (c) => (values[c] <= 0 ? -2 : Number.isFinite(values[c]) ? Math.min(1, Math.max(0, (values[c] - from) / (1 - from))) : -1),
   };
 }
 
@@ -59,8 +63,8 @@ export function makeModes({arrays, about}) {
     ofCell: (c) => middle(arrays.cell_order[c] - 1, highest),
   }];
   if (about.has_deviation) list.push(deviationMode(arrays.point_deviation, arrays.cell_deviation, arrays.face_linear_deviation));
-  if (arrays.cell_cost.length) list.push(linearMode('cost', 'Cost', 'C = min(1, Jp/Jc)/WCN, lowest in the element: 1 is best', arrays.cell_cost, 'none'));
-  list.push(linearMode('bound', 'Bound', 'certified lower bound of min J / max J: valid above 0', arrays.cell_bound, 'none'));
+  if (arrays.cell_cost.length) list.push(linearMode('cost', 'Cost', 'C = min(1, Jp/Jc)/WCN, lowest in the element: 1 is best', 'inverted', arrays.cell_cost));
+  list.push(linearMode('bound', 'Bound', 'certified lower bound of min J / max J: valid above 0', 'not certified', arrays.cell_bound));
   list.push({
     name: 'shape', label: 'Shape', note: 'shape of the element', ...categories(Object.values(shapeColours)), entries: shapes,
     ofCell: (c) => middle(shapes.indexOf(shapeName(arrays.cell_shape[c])), shapes.length),

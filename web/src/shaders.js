@@ -1,5 +1,6 @@
 // How surfaces and lines are drawn: a light that travels with the viewer, one colour map, one cutting plane.
 import {Color, DoubleSide, ShaderMaterial, Vector4} from 'three';
+import {alarm} from './colours.js';
 
 const vertex = `
 attribute float value;
@@ -17,14 +18,14 @@ void main() {
 const fragment = `
 uniform sampler2D map;
 uniform vec4 plane;
-uniform vec3 missing;
+uniform vec3 missing, alarm;
 uniform float opacity;
 uniform int lighting;  // 0 none, 1 by normals, 2 by flat triangles
 varying float vValue;
 varying vec3 vNormal, vEye, vWorld;
 void main() {
   if (dot(plane.xyz, vWorld) > plane.w) discard;
-  vec3 colour = vValue < -0.001 ? missing : texture2D(map, vec2(clamp(vValue, 0.002, 0.998), 0.5)).rgb;
+  vec3 colour = vValue < -1.5 ? alarm : vValue < -0.001 ? missing : texture2D(map, vec2(clamp(vValue, 0.002, 0.998), 0.5)).rgb;
   if (lighting > 0) {
     vec3 n = normalize(lighting == 1 ? vNormal : cross(dFdx(vEye), dFdy(vEye)));
     vec3 toViewer = normalize(-vEye);
@@ -68,7 +69,7 @@ export function faceMaterial({map, lighting, opacity = 1}) {
     polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2,
     transparent: opacity < 1,
     uniforms: {
-      map: {value: map}, plane: {value: nowhere()}, missing: {value: rawColour('#d9dde3')},
+      map: {value: map}, plane: {value: nowhere()}, missing: {value: rawColour('#d9dde3')}, alarm: {value: rawColour(alarm)},
       opacity: {value: opacity}, lighting: {value: lighting},
     },
   });
