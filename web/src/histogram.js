@@ -9,18 +9,18 @@ function plot(title, note, bars, ticks) {
   const step = width / bars.length;
   const picture = svg('svg', {viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': title});
   for (let decade = 1; decade < top; ++decade) {
-    const y = base - (Math.log10(1 + 10 ** decade) / top) * (base - 8);
+    const y = base - (Math.log10(1 + 10 ** decade) / top) * (base - 15);
     picture.append(svg('line', {x1: 0, x2: width, y1: y, y2: y, class: 'guide'}));
   }
   bars.forEach((bar, i) => {
-    const h = (Math.log10(1 + bar.n) / top) * (base - 8);
+    const h = (Math.log10(1 + bar.n) / top) * (base - 15);
     const rect = svg('rect', {x: i * step + 0.75, y: base - h, width: step - 1.5, height: h, fill: bar.colour}, svg('title'));
     rect.firstChild.textContent = `${bar.title}: ${count(bar.n)}`;
     picture.append(rect);
     if (bar.label) {
       const text = svg('text', {x: (i + 0.5) * step, y: height - 4, 'text-anchor': 'middle'});
       text.textContent = bar.label;
-      const total = svg('text', {x: (i + 0.5) * step, y: Math.max(8, base - h - 2), 'text-anchor': 'middle', class: 'total'});
+      const total = svg('text', {x: (i + 0.5) * step, y: base - h - 3, 'text-anchor': 'middle', class: 'total'});
       total.textContent = count(bar.n);
       picture.append(text, total);
     }

@@ -63,8 +63,8 @@ export function makeModes({arrays, about}) {
     ofCell: (c) => middle(arrays.cell_order[c] - 1, highest),
   }];
   if (about.has_deviation) list.push(deviationMode(arrays.point_deviation, arrays.cell_deviation, arrays.face_linear_deviation));
-  if (arrays.cell_cost.length) list.push(linearMode('cost', 'Cost', 'C = min(1, Jp/Jc)/WCN, lowest in the element: 1 is best', 'inverted', arrays.cell_cost));
-  list.push(linearMode('bound', 'Bound', 'certified lower bound of min J / max J: valid above 0', 'not certified', arrays.cell_bound));
+  if (arrays.cell_cost.length) list.push(linearMode('cost', 'Cost', 'C = min(1, Jp/Jc) / WCN, lowest; 1 is best', 'inverted', arrays.cell_cost));
+  list.push(linearMode('bound', 'Bound', 'proved bound of min J / max J; valid above 0', 'not certified', arrays.cell_bound));
   list.push({
     name: 'shape', label: 'Shape', note: 'shape of the element', ...categories(Object.values(shapeColours)), entries: shapes,
     ofCell: (c) => middle(shapes.indexOf(shapeName(arrays.cell_shape[c])), shapes.length),
