@@ -4,6 +4,8 @@
 #include <camber/page/page.hpp>
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
+#include <camber/pipeline/geometry_source.hpp>
+#include <camber/pipeline/own_surface.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -29,6 +31,7 @@ struct CurveFlags {
                     smoothing = "auto";
   std::string link = "auto", page;
   bool is_quality_given = false;
+  double feature_angle = FeatureOptions{}.angle;
   std::vector<std::string> geometry, outputs, patches;
 };
 
@@ -36,6 +39,10 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool is_without_cad(const CurveFlags& flags) {
+  return flags.geometry.size() == 1 && flags.geometry.front() == "auto";
 }
 
 void set_deviation_length(const std::string& text, OrderOptions& orders) {
@@ -53,7 +60,15 @@ void set_deviation_length(const std::string& text, OrderOptions& orders) {
 
 CurveOptions options_of(const CurveFlags& flags) {
   CurveOptions options = flags.options;
+  if (is_without_cad(flags) && flags.link != "auto") {
+    throw OptionError("without a CAD file there is nothing to link to", "--link",
+                      "leave it out, or give the CAD with -g");
+  }
   options.scale = scale_of_unit(flags.unit);
+  if (flags.geometry.size() == 1 && is_geometry_without_cad(flags.geometry.front())) {
+    if (flags.link == "auto") options.link_by = LinkBy::shape;  // it has no tags for the mesh
+    if (options.scale == 0.0) options.scale = 1.0;              // and the mesh's unit
+  }
   set_deviation_length(flags.deviation_length, options.orders);
   options.association = association_of(flags.patches);
   options.propagation = flags.propagation == "cell"      ? Propagation::cell
@@ -95,17 +110,26 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
       {"split-pinched", yes_no(options.split_pinched)},
       {"allow-invalid", yes_no(options.allow_invalid)},
       {"strict", yes_no(options.strict)}};
+  if (is_without_cad(flags)) {
+    list.emplace_back("feature-angle", fmt::format("{:g}", flags.feature_angle));
+  }
   if (!flags.patches.empty()) {
     list.emplace_back("patch", fmt::format("{}", fmt::join(flags.patches, " ")));
   }
   return list;
 }
 
+FeatureOptions features_of(const CurveFlags& flags) {
+  FeatureOptions features;
+  features.angle = features.corner_angle = flags.feature_angle;
+  return features;
+}
+
 /// Writes all outputs, each verified before it replaces anything. @return seconds spent verifying
 double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certified) {
   double verifying = 0.0;
   io::WriteOptions writing = flags.format.writing();
-  writing.geometry = flags.geometry.front();
+  if (!is_without_cad(flags)) writing.geometry = flags.geometry.front();
   for (const std::string& path : flags.outputs) {
     io::write_mesh(mesh, path, writing, [&](const MeshData& read_back) {
       const Clock::time_point start = Clock::now();
@@ -122,10 +146,10 @@ double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certifie
 int run(const CurveFlags& flags) {
   const Clock::time_point begin = Clock::now();
   const CurveOptions options = options_of(flags);
-  const std::string& cad = only_geometry(flags.geometry);
-  std::vector<std::string> outputs = flags.outputs;
+  std::vector<std::string> inputs{flags.mesh}, outputs = flags.outputs;
+  if (!is_without_cad(flags)) inputs.push_back(only_geometry(flags.geometry));
   if (!flags.page.empty()) outputs.push_back(flags.page);
-  refuse_overwriting({flags.mesh, cad}, outputs);
+  refuse_overwriting(inputs, outputs);
   // A stated format: the name of the page may have any extension.
   if (!flags.page.empty()) io::check_writable(flags.page, {.format = io::Format::gmsh});
   for (const std::string& path : flags.outputs) io::check_writable(path, flags.format.writing());
@@ -134,11 +158,18 @@ int run(const CurveFlags& flags) {
   line.show("read", 0.0);
   const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   stop_if_interrupted();
-  const std::unique_ptr<GeometryModel> geometry = read_cad(cad);
+  std::unique_ptr<GeometryModel> geometry;
+  if (!is_without_cad(flags)) {
+    const std::string& source = flags.geometry.front();
+    geometry = is_geometry_without_cad(source) ? make_geometry(source, features_of(flags))
+                                               : read_cad(source);
+  }
   stop_if_interrupted();
   const double reading = seconds_since(begin);
 
-  CurveResult result = curve(mesh, *geometry, options, line.progress());
+  CurveResult result = geometry
+                           ? curve(mesh, *geometry, options, line.progress())
+                           : curve_without_cad(mesh, features_of(flags), options, line.progress());
   Report& report = result.report;
   report.input.mesh = flags.mesh;
   report.input.geometry = flags.geometry;
@@ -234,9 +265,13 @@ Verb add_curve(CLI::App& app) {
   verb->add_option("mesh", flags->mesh, "linear mesh (" + extensions(true) + ")")
       ->required()
       ->type_name("MESH");
-  verb->add_option("-g,--geometry", flags->geometry, "CAD file (.step .stp .iges .igs .brep)")
+  verb->add_option("-g,--geometry", flags->geometry,
+                   "CAD file (.step .stp .iges .igs .brep). Without CAD: auto, a smooth surface "
+                   "through the boundary vertices of the mesh; a finer surface mesh (.stl .msh); "
+                   "or sphere:x,y,z,r, ellipsoid:x,y,z,a,b,c, cylinder:x,y,z,dx,dy,dz,r, "
+                   "torus:x,y,z,dx,dy,dz,R,r")
       ->required()
-      ->type_name("CAD")
+      ->type_name("CAD|auto")
       ->expected(1)
       ->take_all();
   verb->add_option("-o,--output", flags->outputs,
@@ -258,6 +293,12 @@ Verb add_curve(CLI::App& app) {
       ->type_name("LINK|auto|tags|shape")
       ->capture_default_str();
   add_patch_flag(*verb, flags->patches);
+  verb->add_option("--feature-angle", flags->feature_angle,
+                   "-g auto: edges between faces turned by more stay sharp, chains of them have a "
+                   "corner where they turn by more [degrees]")
+      ->check(CLI::Range(1.0, 179.0))
+      ->type_name("ANGLE")
+      ->capture_default_str();
   verb->add_flag("--fit", flags->options.fit,
                  "slide wall nodes along the CAD until the faces follow it as closely as their "
                  "order can; default: evenly spread nodes");

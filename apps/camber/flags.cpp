@@ -100,6 +100,10 @@ const std::string& only_geometry(const std::vector<std::string>& files) {
     throw OptionError("one CAD file is taken for now, " + std::to_string(files.size()) + " given",
                       "--geometry", "join them in one STEP file");
   }
+  if (files.front() == "auto") {
+    throw OptionError("a geometry made from the mesh itself is for camber curve alone",
+                      "--geometry auto", "give the CAD file");
+  }
   return files.front();
 }
 

@@ -89,7 +89,7 @@ void read_result(const CurveResult& result, LadderRow& row) {
   row.smoothed_faces = report.rescue.faces_smoothed;
   row.lowered = report.rescue.orders_lowered;
   row.scaled_back = report.rescue.scaled_back;
-  row.products = report.rescue.elastic_products;
+  row.products = report.start.elastic.products;
   row.min_jacobian_ratio = report.validity.min_jacobian_ratio;
   std::map<std::pair<std::string, int>, int> iterations;
   for (const SmoothRow& step : report.smooth) {

@@ -18,6 +18,9 @@ ProgressCallback = Callable[[str, float], object]
 class Geometry:
     """The CAD of a .step, .stp, .iges, .igs or .brep file. Entities are numbered as Gmsh does.
 
+    Without CAD: a finer surface mesh (.stl, .msh), or an analytic surface: "sphere:x,y,z,r",
+    "ellipsoid:x,y,z,a,b,c", "cylinder:x,y,z,dx,dy,dz,r", "torus:x,y,z,dx,dy,dz,R,r".
+
     Raises:
         FileError: missing or unreadable.
         GeometryError: without faces.
@@ -150,15 +153,16 @@ class Result:
         return f"<camber.Result: {len(self.orders)} cells, {state}>"
 
 
-def curve(mesh: Mesh, geometry: Geometry, *, order: int = 4, min_order: int = 1,
+def curve(mesh: Mesh, geometry: Optional[Geometry] = None, *, order: int = 4, min_order: int = 1,
           deviation: float = 0.01, deviation_length: Union[str, float] = "face",
           uniform: bool = False, propagate: str = "layer", smooth: str = "auto",
           quality: Optional[float] = None, unit: str = "auto",
           link: Path = "auto",
           patches: Optional[Mapping[str, Union[str, Sequence[str]]]] = None, fit: bool = False,
-          split_pinched: bool = False, strict: bool = False, threads: int = 0,
-          progress: Optional[ProgressCallback] = None) -> Result:
-    """Curves a linear mesh onto its CAD.
+          split_pinched: bool = False, strict: bool = False, feature_angle: float = 40.0,
+          threads: int = 0, progress: Optional[ProgressCallback] = None) -> Result:
+    """Curves a linear mesh onto its CAD, or, without one, onto a smooth surface through its own
+    boundary vertices.
 
     The options are those of `camber curve --help`.
 
@@ -179,6 +183,7 @@ def curve(mesh: Mesh, geometry: Geometry, *, order: int = 4, min_order: int = 1,
         fit: slide wall nodes until the faces follow the CAD as closely as their order can.
         split_pinched: cut cells that no curving can leave valid.
         strict: faces over the deviation count as failure in the report.
+        feature_angle: without CAD, edges between faces turned by more stay sharp [degrees].
         threads: 0 for all. The result has the same bits for any number.
         progress: called with stage and fraction done; what it raises cancels the run and is raised
             here. Ctrl-C cancels too.
@@ -193,8 +198,9 @@ def curve(mesh: Mesh, geometry: Geometry, *, order: int = 4, min_order: int = 1,
         "order": order, "min_order": min_order, "uniform": uniform, "deviation": deviation,
         "deviation_length": deviation_length, "propagate": propagate, "smooth": smooth,
         "quality": quality, "unit": unit, "link": os.fspath(link), "patches": dict(patches or {}), "fit": fit,
-        "split_pinched": split_pinched, "strict": strict}
-    return Result(_camber.curve(native(mesh), geometry._model, options, threads, progress))
+        "split_pinched": split_pinched, "strict": strict, "feature_angle": feature_angle}
+    return Result(_camber.curve(native(mesh), geometry._model if geometry else None, options, threads,
+                                progress))
 
 
 def check(mesh: Mesh, geometry: Optional[Geometry] = None, *, deviation: float = 0.01,

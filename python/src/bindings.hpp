@@ -44,6 +44,7 @@ inline py::array view_of(const Vec3* data, std::size_t count, py::handle owner, 
 struct Geometry {
   std::string path;
   std::unique_ptr<GeometryModel> model;
+  bool is_cad = true;  // or without tags for a mesh, in its unit (pipeline/geometry_source.hpp)
   std::mutex turn;
 };
 

@@ -5,6 +5,8 @@
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
+#include <camber/pipeline/geometry_source.hpp>
+#include <camber/pipeline/own_surface.hpp>
 #include <camber/pipeline/text_report.hpp>
 
 #include <pybind11/stl.h>
@@ -123,26 +125,41 @@ std::vector<std::pair<std::string, std::string>> shown(const py::dict& given) {
   return list;
 }
 
-std::shared_ptr<Run> curve_mesh(const MeshData& mesh, Geometry& geometry, const py::dict& given,
+CurveResult run_curve(const MeshData& mesh, Geometry* geometry, CurveOptions& options,
+                      double feature_angle, const Progress& progress) {
+  if (!geometry) {
+    FeatureOptions features;
+    features.angle = features.corner_angle = feature_angle;
+    return curve_without_cad(mesh, features, options, progress);
+  }
+  const std::scoped_lock turn(geometry->turn);
+  geometry->model->set_scale(1.0);  // as read, whatever an earlier run found
+  if (!geometry->is_cad) {
+    if (options.link_by == LinkBy::automatic) options.link_by = LinkBy::shape;
+    if (options.scale == 0.0) options.scale = 1.0;
+  }
+  return curve(mesh, *geometry->model, options, progress);
+}
+
+std::shared_ptr<Run> curve_mesh(const MeshData& mesh, Geometry* geometry, const py::dict& given,
                                 int threads, const py::object& callback) {
   auto run = std::make_shared<Run>();
   run->options = make_options(given);
+  const double feature_angle = given["feature_angle"].cast<double>();
   PythonProgress python(callback);
   bool is_cancelled = false;
   {
     const py::gil_scoped_release no_gil;
-    const std::scoped_lock turn(geometry.turn);
     const ThreadLimit limit(threads);
-    geometry.model->set_scale(1.0);  // as read, whatever an earlier run found
     try {
-      run->result = curve(mesh, *geometry.model, run->options, python.progress());
+      run->result = run_curve(mesh, geometry, run->options, feature_angle, python.progress());
     } catch (const Cancelled&) {
       is_cancelled = true;
     }
   }
   if (is_cancelled) python.rethrow();
   run->result.report.input.mesh = mesh.source;
-  run->result.report.input.geometry = {geometry.path};
+  run->result.report.input.geometry = {geometry ? geometry->path : "auto"};
   run->result.report.options = shown(given);
   return run;
 }
@@ -163,7 +180,8 @@ void bind_geometry(py::module_& module) {
       .def(py::init([](const std::string& path) {
              auto geometry = std::make_shared<Geometry>();
              geometry->path = path;
-             geometry->model = read_cad(path);
+             geometry->is_cad = !is_geometry_without_cad(path);
+             geometry->model = geometry->is_cad ? read_cad(path) : make_geometry(path);
              return geometry;
            }),
            py::call_guard<py::gil_scoped_release>(), py::arg("path"))
@@ -241,8 +259,8 @@ void bind_runs(py::module_& module) {
       .def("text", &text_report)
       .def("json", &json_report);
   bind_result(module);
-  module.def("curve", &curve_mesh, py::arg("mesh"), py::arg("geometry"), py::arg("options"),
-             py::arg("threads"), py::arg("progress"));
+  module.def("curve", &curve_mesh, py::arg("mesh"), py::arg("geometry").none(true),
+             py::arg("options"), py::arg("threads"), py::arg("progress"));
   module.def(
       "check",
       [](const MeshData& mesh, Geometry* geometry, double deviation, bool with_quality, bool strict,

@@ -70,6 +70,21 @@ def test_the_link_can_be_the_tags_or_the_shape(ball, curved, link):
     assert np.array_equal(result.orders, curved.orders)
 
 
+def test_a_mesh_without_cad_is_curved_onto_itself(ball):
+    result = camber.curve(ball.mesh, order=3)
+    assert result.is_certified and result.orders.max() > 1
+    assert result.report().data["link"]["method"] == "mesh"
+    assert camber.curve(ball.mesh, order=3, feature_angle=1.0).orders.max() == 1  # all is sharp
+
+
+def test_an_analytic_surface_can_be_the_geometry(ball):
+    result = camber.curve(ball.mesh, camber.Geometry("sphere:0,0,0,1"), order=3)
+    assert result.is_certified
+    assert np.nanmax(result.deviations) < 1e-3
+    with pytest.raises(camber.OptionError):
+        camber.Geometry("sphere:0,0,0")
+
+
 def test_a_patch_can_name_its_cad_faces(ball):
     result = camber.curve(ball.mesh, ball.geometry, order=2, link="shape",
                           patches={"ball": ["face_1"]})

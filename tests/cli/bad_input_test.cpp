@@ -138,6 +138,20 @@ TEST_F(BadInput, ACadCutInTheMiddle) {
   expect_refused(k_mesh, file("cut.step"), "cut.step");
 }
 
+TEST_F(BadInput, GeometryWithoutCadThatCannotBe) {
+  expect_refused(k_mesh, file("none.stl"), "none.stl");
+  write_text(file("text.stl"), "no surface");
+  expect_refused(k_mesh, file("text.stl"), "not an STL file");
+  const auto curved_onto = [&](const std::string& geometry) {
+    return camber({"curve", k_mesh, "-g", geometry, "-o", file("out.msh")});
+  };
+  expect_error(curved_onto("sphere:0,0,0"), 1, "4 expected");
+  expect_error(curved_onto("torus:0,0,0,0,0,1,1,2"), 1, "as wide as its ring");
+  expect_error(camber({"curve", k_mesh, "-g", "auto", "-o", file("out.msh"), "--link", "tags"}), 1,
+               "nothing to link to");
+  expect_error(camber({"check", k_mesh, "-g", "auto"}), 1, "for camber curve alone");
+}
+
 TEST_F(BadInput, UnknownExtensions) {
   write_text(file("mesh.abc"), read_text(k_mesh));
   expect_refused(file("mesh.abc"), k_cad, ".abc");

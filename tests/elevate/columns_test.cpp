@@ -44,11 +44,34 @@ TEST(Columns, OfPrismsAndHexahedraReachThroughAllLayers) {
   }
 }
 
-TEST(Columns, DoNotStandOnTets) {
+TEST(Columns, OfLayersSplitIntoTetsAreThoseOfTheirPrisms) {
+  LayerOptions options;
+  options.filling = LayerFilling::tets;
+  const std::vector<double> heights{0.0, 1e-6, 1e-3, 0.1};
+  const SurfaceMesh surface = icosphere(1);
+  const auto c = sphere_case(surface, heights, options);
+  const Index n = static_cast<Index>(surface.points.size());
+
+  EXPECT_EQ(c->columns.column_count, surface.faces.size());
+  for (Index v = 0; at(v) < c->mesh.vertices.size(); ++v) EXPECT_EQ(c->columns.base[at(v)], v % n);
+  std::vector<int> cells_on(c->wall.face_count(), 0);
+  for (Index cell = 0; at(cell) < c->mesh.cell_count(); ++cell) {
+    const Index slot = c->columns.cell_face_slot[at(cell)];
+    ASSERT_NE(slot, k_none);
+    ++cells_on[at(slot)];
+    const std::array<Index, 4>& foot = c->topology.face2vertex[at(c->wall.faces[at(slot)])];
+    for (Index v : c->mesh.cell(cell)) {
+      EXPECT_NE(std::find(foot.begin(), foot.end(), v % n), foot.end());
+    }
+  }
+  for (int count : cells_on) EXPECT_EQ(count, 9);
+}
+
+TEST(Columns, DoNotStandOnTetsAsHighAsTheirFaces) {
   LayerOptions options;
   options.filling = LayerFilling::tets;
   const SurfaceMesh surface = icosphere(0);
-  const auto c = sphere_case(surface, {0.0, 0.05, 0.1}, options);
+  const auto c = sphere_case(surface, {0.0, 1.1, 2.2}, options);
   const std::size_t n = surface.points.size();
 
   EXPECT_EQ(c->columns.column_count, 0u);

@@ -68,6 +68,7 @@ Report filled() {
   report.quality.cost[9] = 23;
   report.quality.scaled_jacobian[3] = 23;
   report.wall_spacing = {8, 200, 1, 0.0123};
+  report.start = {"cell", "elastic", 321, 4, {2, 1, 123, 0.5}};
   report.rescue.scaled_back = 1;
   report.rescue.pinched = 2;
   report.rescue.places = {{5, Shape::tetrahedron, Vec3(0, 0, 1), 0.5, "scaled back"}};
@@ -92,10 +93,10 @@ std::vector<std::string> keys(const Json& object) {
 TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
   const Json json = Json::parse(json_report(filled()));
 
-  EXPECT_THAT(keys(json),
-              ElementsAre("camber", "command", "status", "exit_code", "options", "input", "output",
-                          "validity", "conformity", "link", "surface", "quality", "wall_spacing",
-                          "rescue", "smooth", "time", "memory", "threads", "ranks", "warnings"));
+  EXPECT_THAT(keys(json), ElementsAre("camber", "command", "status", "exit_code", "options",
+                                      "input", "output", "validity", "conformity", "link",
+                                      "surface", "quality", "wall_spacing", "start", "rescue",
+                                      "smooth", "time", "memory", "threads", "ranks", "warnings"));
   EXPECT_THAT(keys(json["input"]), ElementsAre("mesh", "geometry", "cells", "nodes"));
   EXPECT_THAT(keys(json["input"]["cells"]), ElementsAre("tet", "pyramid", "prism", "hex"));
   EXPECT_THAT(keys(json["output"]),
@@ -112,11 +113,14 @@ TEST(JsonReport, HasTheKeysThatOthersRelyOn) {
   EXPECT_THAT(keys(json["time"]["stages_s"]),
               ElementsAre("read", "associate", "elevate", "place", "propagate", "certify", "smooth",
                           "write", "verify"));
-  EXPECT_THAT(
-      keys(json["rescue"]),
-      ElementsAre("load_steps", "patches", "faces_smoothed", "orders_lowered", "scaled_back",
-                  "put_back", "pinched", "elastic_patches", "elastic_products", "edges_removed",
-                  "pinched_split", "mended", "places"));
+  EXPECT_THAT(keys(json["start"]),
+              ElementsAre("asked", "taken", "uncertified_as_asked", "uncertified", "elastic"));
+  EXPECT_THAT(keys(json["start"]["elastic"]),
+              ElementsAre("solves", "unconverged", "products", "largest_residual"));
+  EXPECT_THAT(keys(json["rescue"]),
+              ElementsAre("load_steps", "patches", "faces_smoothed", "orders_lowered",
+                          "scaled_back", "put_back", "pinched", "elastic_patches", "edges_removed",
+                          "pinched_split", "mended", "places"));
 }
 
 TEST(JsonReport, HoldsEveryValue) {
@@ -124,6 +128,12 @@ TEST(JsonReport, HoldsEveryValue) {
 
   EXPECT_EQ(json["camber"]["version"], version());
   EXPECT_EQ(json["exit_code"], 3);
+  EXPECT_EQ(json["start"]["asked"], "cell");
+  EXPECT_EQ(json["start"]["taken"], "elastic");
+  EXPECT_EQ(json["start"]["uncertified_as_asked"], 321);
+  EXPECT_EQ(json["start"]["uncertified"], 4);
+  EXPECT_EQ(json["start"]["elastic"]["products"], 123);
+  EXPECT_EQ(json["start"]["elastic"]["largest_residual"], 0.5);
   EXPECT_EQ(json["options"]["order"], "4");
   EXPECT_EQ(json["input"]["cells"]["prism"], 12);
   EXPECT_EQ(json["input"]["cells"]["hex"], 0);
@@ -177,6 +187,9 @@ TEST(TextReport, ShowsThePapersTableWithTheLinearMeshBeside) {
   EXPECT_THAT(text, HasSubstr("prism 7 Q3"));
   EXPECT_THAT(text, HasSubstr("mesh units"));
   EXPECT_THAT(text, HasSubstr("1 of 200 wall nodes (0.5 %)"));
+  EXPECT_THAT(text, HasSubstr("--propagate cell: 321 cells not certified; replaced by elastic: 4"));
+  EXPECT_THAT(text,
+              HasSubstr("2 elastic solves, 123 products with the stiffness, 1 not converged"));
   EXPECT_THAT(text, HasSubstr("something to know"));
   EXPECT_THAT(text, HasSubstr("result     scaled_back\n"));
 }
@@ -205,7 +218,7 @@ TEST(TextReport, LeavesOutWhatWasNotMeasured) {
   const std::string text = text_report(report);
 
   for (const char* section :
-       {"Surface", "Validity", "Wall", "Rescue", "Quality", "Conformity", "Smoothing"}) {
+       {"Surface", "Start", "Validity", "Wall", "Rescue", "Quality", "Conformity", "Smoothing"}) {
     EXPECT_THAT(text, Not(HasSubstr(section)));
   }
   EXPECT_THAT(text, HasSubstr("result     ok"));

@@ -5,37 +5,123 @@
 #include <functional>
 #include <optional>
 #include <queue>
+#include <span>
 #include <tuple>
 
 namespace camber {
 namespace {
 
-/// Corner opposite to `corner` along the stacking direction that starts at local face `face`, for
-/// every corner of that face; nothing if the shape has no opposite face there.
-std::optional<std::array<int, 4>> opposite_corners(Shape shape, const LocalFace& face) {
-  std::array<int, 4> across{-1, -1, -1, -1};
-  const bool is_stackable = (shape == Shape::prism && face.shape == Shape::triangle) ||
-                            (shape == Shape::hexahedron && face.shape == Shape::quadrilateral);
-  if (!is_stackable) return {};
-  const std::size_t n = face.shape == Shape::triangle ? 3 : 4;
-  const auto on_face = [&](int c) {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (face.corners[i] == c) return true;
-    }
-    return false;
-  };
-  for (const std::array<int, 2>& edge : edges(shape)) {
-    if (on_face(edge[0]) == on_face(edge[1])) continue;
-    const int low = on_face(edge[0]) ? edge[0] : edge[1],
-              high = on_face(edge[0]) ? edge[1] : edge[0];
-    for (std::size_t i = 0; i < n; ++i) {
-      if (face.corners[i] == low) across[i] = high;
-    }
-  }
-  return across;
+/// The lateral edges of a prism split into tets are shorter than this share of its foot's edges.
+constexpr double k_lateral_share = 0.8;
+
+/// Cells stacked at once on a foot face: one prism or hexahedron, or the three tets of a prism.
+struct Stack {
+  std::size_t corner_count = 0;
+  std::array<Index, 4> low{}, high{};  // corners of the foot; the vertices above them
+  std::array<Index, 3> cells{k_none, k_none, k_none};
+  Index top_face = k_none, beyond = k_none;  // the face opposite to the foot; the cell behind it
+};
+
+Index across(const Topology& topology, Index face, Index cell) {
+  const std::array<Index, 2>& sides = topology.face2cell[at(face)];
+  return sides[0] == cell ? sides[1] : sides[0];
 }
 
-/// A cell to be stacked next on a column; `height` is that of the lowest vertex it would add.
+/// Face of the cell that has none of the given vertices.
+Index face_without(const Topology& topology, Index cell, std::span<const Index> vertices) {
+  for (Index f : topology.faces_of_cell(cell)) {
+    const std::array<Index, 4>& corners = topology.face2vertex[at(f)];
+    const bool shares = std::any_of(vertices.begin(), vertices.end(), [&](Index v) {
+      return std::find(corners.begin(), corners.end(), v) != corners.end();
+    });
+    if (!shares) return f;
+  }
+  return k_none;
+}
+
+/// A prism on a triangle or a hexahedron on a quadrilateral.
+std::optional<Stack> single_cell(const LinearMesh& mesh, const Topology& topology, Index face,
+                                 Index cell) {
+  const Shape shape = mesh.cell_shape[at(cell)], foot = topology.face_shape[at(face)];
+  if (!(shape == Shape::prism && foot == Shape::triangle) &&
+      !(shape == Shape::hexahedron && foot == Shape::quadrilateral)) {
+    return {};
+  }
+  Stack stack;
+  stack.corner_count = foot == Shape::triangle ? 3 : 4;
+  stack.low = topology.face2vertex[at(face)];
+  stack.cells[0] = cell;
+  const std::span<const Index> low(stack.low.data(), stack.corner_count);
+  const std::span<const Index> v = mesh.cell(cell);
+  for (const std::array<int, 2>& edge : edges(shape)) {
+    const Index a = v[static_cast<std::size_t>(edge[0])], b = v[static_cast<std::size_t>(edge[1])];
+    const auto low_a = std::find(low.begin(), low.end(), a),
+               low_b = std::find(low.begin(), low.end(), b);
+    if ((low_a == low.end()) == (low_b == low.end())) continue;
+    const auto corner = low_a == low.end() ? low_b : low_a;
+    stack.high[static_cast<std::size_t>(corner - low.begin())] = low_a == low.end() ? a : b;
+  }
+  stack.top_face = face_without(topology, cell, low);
+  stack.beyond = across(topology, stack.top_face, cell);
+  return stack;
+}
+
+/// The three tets of a prism on a triangle: the apex of each stands over one corner of the foot,
+/// the next tet lies across the face opposite to that corner.
+std::optional<Stack> three_tets(const LinearMesh& mesh, const Topology& topology, Index face,
+                                Index cell) {
+  if (topology.face_shape[at(face)] != Shape::triangle) return {};
+  Stack stack;
+  stack.corner_count = 3;
+  stack.low = topology.face2vertex[at(face)];
+  stack.high = {k_none, k_none, k_none, k_none};
+  double shortest = 1e300;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 edge = mesh.vertices[at(stack.low[i])] - mesh.vertices[at(stack.low[(i + 1) % 3])];
+    shortest = std::min(shortest, edge.norm());
+  }
+  Index below = face;
+  for (Index& slot : stack.cells) {
+    if (cell == k_none || mesh.cell_shape[at(cell)] != Shape::tetrahedron) return {};
+    slot = cell;
+    const std::array<Index, 4>& base = topology.face2vertex[at(below)];
+    const std::span<const Index> v = mesh.cell(cell);
+    const Index apex = *std::find_if(v.begin(), v.end(), [&](Index w) {
+      return std::find(base.begin(), base.begin() + 3, w) == base.begin() + 3;
+    });
+    std::size_t corner = 3;
+    double nearest = k_lateral_share * shortest;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (stack.high[i] != k_none) continue;
+      const double distance = (mesh.vertices[at(apex)] - mesh.vertices[at(stack.low[i])]).norm();
+      if (distance < nearest) {
+        nearest = distance;
+        corner = i;
+      }
+    }
+    if (corner == 3) return {};
+    stack.high[corner] = apex;
+    below = face_without(topology, cell, {&stack.low[corner], 1});
+    cell = across(topology, below, cell);
+  }
+  stack.top_face = below;
+  stack.beyond = cell;
+  return stack;
+}
+
+/// None of the cells is on a column yet, and no vertex above belongs to another foot.
+bool fits(const Columns& columns, const Stack& stack) {
+  for (Index c : stack.cells) {
+    if (c != k_none && columns.cell_face_slot[at(c)] != k_none) return false;
+  }
+  for (std::size_t i = 0; i < stack.corner_count; ++i) {
+    const Index known = columns.base[at(stack.high[i])];
+    if (known != k_none && known != columns.base[at(stack.low[i])]) return false;
+  }
+  return true;
+}
+
+/// Where a column goes on; `height` is that of the lowest vertex it would add.
 struct Front {
   double height;
   Index face, cell, slot;
@@ -67,46 +153,22 @@ Columns find_columns(const LinearMesh& mesh, const Topology& topology, const Wal
   while (!front.empty()) {
     const Front here = front.top();
     front.pop();
-    if (columns.cell_face_slot[at(here.cell)] != k_none) continue;
-    const Shape shape = mesh.cell_shape[at(here.cell)];
-    const std::span<const Index> cell_faces = topology.faces_of_cell(here.cell);
-    std::size_t local = 0;
-    while (cell_faces[local] != here.face) ++local;
-    const LocalFace& face = faces(shape)[local];
-    const auto across = opposite_corners(shape, face);
-    if (!across) continue;
-    const std::span<const Index> v = mesh.cell(here.cell);
-    const std::size_t n = face.shape == Shape::triangle ? 3 : 4;
-    bool fits = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Index low = v[static_cast<std::size_t>(face.corners[i])];
-      const Index high = v[static_cast<std::size_t>((*across)[i])];
-      const Index known = columns.base[at(high)];
-      fits = fits && (known == k_none || known == columns.base[at(low)]);
-    }
-    if (!fits) continue;
+    std::optional<Stack> stack = single_cell(mesh, topology, here.face, here.cell);
+    if (!stack) stack = three_tets(mesh, topology, here.face, here.cell);
+    if (!stack || !fits(columns, *stack)) continue;
     double top = 1e300;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Index low = v[static_cast<std::size_t>(face.corners[i])];
-      const Index high = v[static_cast<std::size_t>((*across)[i])];
-      const Index foot = columns.base[at(low)];
+    for (std::size_t i = 0; i < stack->corner_count; ++i) {
+      const Index foot = columns.base[at(stack->low[i])], high = stack->high[i];
       columns.base[at(high)] = foot;
       columns.height[at(high)] = (mesh.vertices[at(high)] - mesh.vertices[at(foot)]).norm();
       top = std::min(top, columns.height[at(high)]);
     }
-    columns.cell_face_slot[at(here.cell)] = here.slot;
+    for (Index c : stack->cells) {
+      if (c != k_none) columns.cell_face_slot[at(c)] = here.slot;
+    }
     if (here.is_first) ++columns.column_count;
-    // The opposite face is the one that shares no corner with the face we came from.
-    for (std::size_t j = 0; j < cell_faces.size(); ++j) {
-      const LocalFace& other = faces(shape)[j];
-      bool shares = false;
-      for (int a : other.corners) {
-        for (int b : face.corners) shares = shares || (a >= 0 && a == b);
-      }
-      if (shares) continue;
-      const std::array<Index, 2>& cells = topology.face2cell[at(cell_faces[j])];
-      const Index beyond = cells[0] == here.cell ? cells[1] : cells[0];
-      if (beyond != k_none) front.push({top, cell_faces[j], beyond, here.slot, false});
+    if (stack->beyond != k_none) {
+      front.push({top, stack->top_face, stack->beyond, here.slot, false});
     }
   }
   return columns;

@@ -1,5 +1,5 @@
 #pragma once
-// Layer columns: prisms and hexahedra stacked on a wall face through opposite faces.
+// Layer columns: prisms, hexahedra and prisms split into three tetrahedra, stacked on a wall face.
 #include <camber/elevate/wall.hpp>
 
 #include <vector>
@@ -13,9 +13,11 @@ struct Columns {
   std::size_t column_count = 0;       // wall faces that carry at least one cell
 };
 
-/// Walks from every wall face, nearest cells first, through the opposite faces of prisms (on
-/// triangles) and hexahedra (on quadrilaterals). A column ends at another shape, at the boundary,
-/// or where a vertex already belongs to another foot.
+/// Walks from every wall face, nearest cells first, through the opposite faces of prisms and of
+/// prisms split into three tets (on triangles) and of hexahedra (on quadrilaterals). Three tets
+/// count as a prism if each, in turn, puts its apex over a corner of the face below, nearer to it
+/// than k_lateral_share of that face's shortest edge: cells as high as wide are no layer. A column
+/// ends at another shape, at the boundary, or where a vertex already belongs to another foot.
 [[nodiscard]] Columns find_columns(const LinearMesh& mesh, const Topology& topology,
                                    const Wall& wall);
 

@@ -1,4 +1,5 @@
 #include <camber/base/error.hpp>
+#include <camber/base/parallel.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/mesh/topology.hpp>
 
@@ -9,17 +10,57 @@
 namespace camber {
 namespace {
 
-/// One occurrence of an edge or face in a cell, to be sorted by key.
-struct Occurrence {
-  CornerKey key;
-  Index cell;
-  Index slot;  // place in cell2edge / cell2face
+/// One use of an edge or face by a cell; `rest` are the corners above the smallest one, sorted.
+template <std::size_t N>
+struct Use {
+  std::array<Index, N> rest;
+  Index cell, slot;  // place in cell2edge / cell2face
 };
 
-bool precedes(const Occurrence& a, const Occurrence& b) {
-  if (a.key != b.key) return a.key < b.key;
-  return a.slot < b.slot;
-}
+/// Uses by smallest vertex, each bucket sorted by the other corners and then by slot: the order of
+/// sorted corner keys, without sorting all at once.
+template <std::size_t N>
+class Buckets {
+ public:
+  /// @param each_use  calls its argument with key, cell and slot of every use; runs twice
+  template <class EachUse>
+  Buckets(std::size_t vertices, const EachUse& each_use) : first_(vertices + 1, 0) {
+    each_use([&](const CornerKey& key, Index, Index) { ++first_[at(key.v[0]) + 1]; });
+    for (std::size_t v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
+    uses_.resize(at(first_.back()));
+    std::vector<Index> next(first_.begin(), first_.end() - 1);
+    each_use([&](const CornerKey& key, Index cell, Index slot) {
+      Use<N>& use = uses_[at(next[at(key.v[0])]++)];
+      std::copy_n(key.v.begin() + 1, N, use.rest.begin());
+      use.cell = cell;
+      use.slot = slot;
+    });
+    parallel_for(vertices, 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        std::sort(uses_.begin() + first_[v], uses_.begin() + first_[v + 1],
+                  [](const Use<N>& a, const Use<N>& b) {
+                    return a.rest != b.rest ? a.rest < b.rest : a.slot < b.slot;
+                  });
+      }
+    });
+  }
+
+  /// Calls visit(smallest vertex, use, is_new): is_new for the first use of an edge or face.
+  template <class Visit>
+  void in_order(const Visit& visit) const {
+    for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
+      for (Index i = first_[v]; i < first_[v + 1]; ++i) {
+        const bool is_new = i == first_[v] || uses_[at(i)].rest != uses_[at(i) - 1].rest;
+        visit(static_cast<Index>(v), uses_[at(i)], is_new);
+      }
+    }
+  }
+  [[nodiscard]] std::size_t size() const { return uses_.size(); }
+
+ private:
+  std::vector<Index> first_;
+  std::vector<Use<N>> uses_;
+};
 
 /// Corners of a face in its frame, from any cyclic listing.
 std::array<Index, 4> frame_of(std::span<const Index> corners) {
@@ -61,29 +102,34 @@ std::span<const Index> used(const std::array<Index, 4>& v, Shape shape) {
 }
 
 void build_edges(const LinearMesh& mesh, Topology& topology) {
-  std::vector<Occurrence> all;
   topology.cell2edge_offset.push_back(0);
-  for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
-    for (const std::array<int, 2>& edge : edges(mesh.cell_shape[at(c)])) {
-      const std::array<Index, 2> v{mesh.cell(c)[static_cast<std::size_t>(edge[0])],
-                                   mesh.cell(c)[static_cast<std::size_t>(edge[1])]};
-      topology.cell2edge_reversed.push_back(v[0] > v[1]);
-      all.push_back({corner_key(v), c, static_cast<Index>(all.size())});
-    }
-    topology.cell2edge_offset.push_back(static_cast<Index>(all.size()));
+  for (Shape shape : mesh.cell_shape) {
+    topology.cell2edge_offset.push_back(topology.cell2edge_offset.back() +
+                                        static_cast<Index>(edges(shape).size()));
   }
-  std::sort(all.begin(), all.end(), precedes);
-  topology.cell2edge.resize(all.size());
-  topology.edge2cell_offset.push_back(0);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i == 0 || all[i].key != all[i - 1].key) {
-      if (i > 0) topology.edge2cell_offset.push_back(static_cast<Index>(i));
-      topology.edge2vertex.push_back({all[i].key.v[0], all[i].key.v[1]});
+  topology.cell2edge_reversed.resize(at(topology.cell2edge_offset.back()));
+  const Buckets<1> buckets(mesh.vertices.size(), [&](const auto& use) {
+    Index slot = 0;
+    for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
+      for (const std::array<int, 2>& edge : edges(mesh.cell_shape[at(c)])) {
+        const Index a = mesh.cell(c)[static_cast<std::size_t>(edge[0])],
+                    b = mesh.cell(c)[static_cast<std::size_t>(edge[1])];
+        topology.cell2edge_reversed[at(slot)] = a > b;
+        use(CornerKey{{std::min(a, b), std::max(a, b), -1, -1}}, c, slot++);
+      }
     }
-    topology.cell2edge[at(all[i].slot)] = static_cast<Index>(topology.edge2vertex.size() - 1);
-    topology.edge2cell.push_back(all[i].cell);
-  }
-  topology.edge2cell_offset.push_back(static_cast<Index>(all.size()));
+  });
+  topology.cell2edge.resize(buckets.size());
+  topology.edge2cell.reserve(buckets.size());
+  buckets.in_order([&](Index low, const Use<1>& use, bool is_new) {
+    if (is_new) {
+      topology.edge2cell_offset.push_back(static_cast<Index>(topology.edge2cell.size()));
+      topology.edge2vertex.push_back({low, use.rest[0]});
+    }
+    topology.cell2edge[at(use.slot)] = static_cast<Index>(topology.edge2vertex.size() - 1);
+    topology.edge2cell.push_back(use.cell);
+  });
+  topology.edge2cell_offset.push_back(static_cast<Index>(topology.edge2cell.size()));
 }
 
 [[noreturn]] void refuse_shared_face(const LinearMesh& mesh, Index a, Index b, Index c) {
@@ -93,26 +139,48 @@ void build_edges(const LinearMesh& mesh, Topology& topology) {
                   "a face may have at most two cells: remove the duplicate or overlapping cell");
 }
 
-void build_faces(const LinearMesh& mesh, Topology& topology) {
-  std::vector<Occurrence> all;
-  topology.cell2face_offset.push_back(0);
-  for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
-    for (const LocalFace& face : faces(mesh.cell_shape[at(c)])) {
-      const std::array<Index, 4> v = corners_of(mesh, c, face);
-      all.push_back({corner_key(used(v, face.shape)), c, static_cast<Index>(all.size())});
+/// Edges of every face, found among those of its first cell.
+void link_face_edges(Topology& topology) {
+  topology.face2edge.resize(topology.face_count());
+  parallel_for(topology.face_count(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::span<const Index> v = used(topology.face2vertex[f], topology.face_shape[f]);
+      topology.face2edge[f] = {-1, -1, -1, -1};
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        const auto [a, b] = std::minmax(v[i], v[(i + 1) % v.size()]);
+        for (Index e : topology.edges_of_cell(topology.face2cell[f][0])) {
+          if (topology.edge2vertex[at(e)] == std::array<Index, 2>{a, b}) {
+            topology.face2edge[f][i] = e;
+          }
+        }
+      }
     }
-    topology.cell2face_offset.push_back(static_cast<Index>(all.size()));
+  });
+}
+
+void build_faces(const LinearMesh& mesh, Topology& topology) {
+  topology.cell2face_offset.push_back(0);
+  for (Shape shape : mesh.cell_shape) {
+    topology.cell2face_offset.push_back(topology.cell2face_offset.back() +
+                                        static_cast<Index>(faces(shape).size()));
   }
-  std::sort(all.begin(), all.end(), precedes);
-  topology.cell2face.resize(all.size());
-  topology.cell2face_view.resize(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Occurrence& here = all[i];
+  const Buckets<3> buckets(mesh.vertices.size(), [&](const auto& use) {
+    Index slot = 0;
+    for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
+      for (const LocalFace& face : faces(mesh.cell_shape[at(c)])) {
+        const std::array<Index, 4> v = corners_of(mesh, c, face);
+        use(corner_key(used(v, face.shape)), c, slot++);
+      }
+    }
+  });
+  topology.cell2face.resize(buckets.size());
+  topology.cell2face_view.resize(buckets.size());
+  buckets.in_order([&](Index, const Use<3>& here, bool is_new) {
     const std::size_t local =
         static_cast<std::size_t>(here.slot - topology.cell2face_offset[at(here.cell)]);
     const LocalFace& face = faces(mesh.cell_shape[at(here.cell)])[local];
     const std::array<Index, 4> v = corners_of(mesh, here.cell, face);
-    if (i == 0 || here.key != all[i - 1].key) {
+    if (is_new) {
       topology.face_shape.push_back(face.shape);
       topology.face2vertex.push_back(frame_of(used(v, face.shape)));
       topology.face2cell.push_back({here.cell, k_none});
@@ -131,31 +199,30 @@ void build_faces(const LinearMesh& mesh, Topology& topology) {
           "mesh topology", "the quadrilateral face is twisted: repair these cells");
     }
     topology.cell2face_view[at(here.slot)] = static_cast<std::uint8_t>(view);
+  });
+  link_face_edges(topology);
+}
+
+/// The face with these corners; -1 if there is none. Faces are numbered in the order of their keys.
+Index find_face(const Topology& topology, const CornerKey& key) {
+  Index low = 0, high = static_cast<Index>(topology.face_count());
+  const auto key_of = [&](Index f) {
+    return corner_key(used(topology.face2vertex[at(f)], topology.face_shape[at(f)]));
+  };
+  while (low < high) {
+    const Index middle = low + (high - low) / 2;
+    key_of(middle) < key ? low = middle + 1 : high = middle;
   }
-  topology.face2edge.resize(topology.face_count());
-  for (std::size_t f = 0; f < topology.face_count(); ++f) {
-    const std::span<const Index> v = used(topology.face2vertex[f], topology.face_shape[f]);
-    topology.face2edge[f] = {-1, -1, -1, -1};
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      topology.face2edge[f][i] = topology.find_edge(v[i], v[(i + 1) % v.size()]);
-    }
-  }
+  return at(low) < topology.face_count() && key_of(low) == key ? low : k_none;
 }
 
 void link_patch_faces(const LinearMesh& mesh, Topology& topology) {
-  std::vector<std::pair<CornerKey, Index>> by_key;
-  by_key.reserve(topology.face_count());
-  for (std::size_t f = 0; f < topology.face_count(); ++f) {
-    by_key.emplace_back(corner_key(used(topology.face2vertex[f], topology.face_shape[f])),
-                        static_cast<Index>(f));
-  }
-  std::sort(by_key.begin(), by_key.end());
   topology.face2patch_face.assign(topology.face_count(), k_none);
   topology.patch_face2face.assign(mesh.patch_face_shape.size(), k_none);
   for (std::size_t b = 0; b < mesh.patch_face_shape.size(); ++b) {
     const CornerKey key = corner_key(used(mesh.patch_face_vertices[b], mesh.patch_face_shape[b]));
-    const auto found = std::lower_bound(by_key.begin(), by_key.end(), std::pair{key, Index{-1}});
-    if (found == by_key.end() || found->first != key) {
+    const Index found = find_face(topology, key);
+    if (found == k_none) {
       const Vec3& x = mesh.vertices[at(key.v[0])];
       throw MeshError(
           fmt::format("a {} of {} is not a face of any cell", name(mesh.patch_face_shape[b]),
@@ -163,7 +230,7 @@ void link_patch_faces(const LinearMesh& mesh, Topology& topology) {
           fmt::format("near ({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()),
           "surface and volume mesh do not belong together: export them from one run");
     }
-    const std::size_t f = at(found->second);
+    const std::size_t f = at(found);
     const std::span<const Index> walk = used(mesh.patch_face_vertices[b], mesh.patch_face_shape[b]);
     if (face_view(topology.face_shape[f], walk, topology.face2vertex[f]) < 0) {
       const Vec3& x = mesh.vertices[at(key.v[0])];
@@ -172,9 +239,9 @@ void link_patch_faces(const LinearMesh& mesh, Topology& topology) {
                       fmt::format("near ({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z()),
                       "the surface element is twisted: repair it");
     }
-    topology.patch_face2face[b] = found->second;
+    topology.patch_face2face[b] = found;
     // A face listed twice (two physical groups) keeps its first entity.
-    Index& owner = topology.face2patch_face[at(found->second)];
+    Index& owner = topology.face2patch_face[f];
     if (owner == k_none) owner = static_cast<Index>(b);
   }
 }

@@ -3,6 +3,7 @@
 #include <camber/base/error.hpp>
 #include <camber/pipeline/cad_link.hpp>
 #include <camber/pipeline/mesh_link.hpp>
+#include <camber/pipeline/own_surface.hpp>
 
 #include <optional>
 
@@ -10,6 +11,11 @@
 
 namespace camber {
 Association CadLink::link(const LinearMesh& mesh, const Topology& topology, Report& report) {
+  if (options_.link_by == LinkBy::own_surface) {
+    return associate_given(mesh, topology, geometry_,
+                           given_link(*options_.surface_link, mesh, topology),
+                           options_.association);
+  }
   if (options_.link_by == LinkBy::file) return by_file(mesh, topology, report);
   if (is_by_shape_) return by_shape(mesh, topology, report);
   std::optional<GeometryError> misfit;

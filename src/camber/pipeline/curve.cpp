@@ -1,17 +1,13 @@
 #include <camber/base/error.hpp>
-#include <camber/base/sorted_set.hpp>
-#include <camber/elevate/apply_field.hpp>
 #include <camber/elevate/pinched.hpp>
-#include <camber/elevate/rescue.hpp>
 #include <camber/pipeline/cad_link.hpp>
 #include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/smooth_stage.hpp>
 #include <camber/pipeline/summary.hpp>
 #include <camber/pipeline/unpinch.hpp>
+#include <camber/pipeline/volume_start.hpp>
 #include <camber/pipeline/wall_repair.hpp>
-#include <camber/smooth/elastic.hpp>
-#include <camber/smooth/patch.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -91,47 +87,6 @@ void refuse_bad_quality(double quality) {
                     "give a value from 0 to 1; 0.95 is the paper's");
 }
 
-/// Share of the curved cells from which on the start counts as tangled as a whole; below it, and
-/// with layers carried, it is a matter for single patches.
-constexpr double k_tangled_share = 0.25;
-
-bool is_tangled(const CurveOptions& options, std::size_t bad, std::size_t curved) {
-  if (options.smoothing != Smoothing::automatic || bad == 0) return false;
-  return options.propagation == Propagation::cell ||
-         static_cast<double>(bad) > k_tangled_share * static_cast<double>(curved);
-}
-
-/// What replaced a tangled start.
-enum class Start { as_it_was, elastic, carried };
-
-/// A carried state may have this many times the uncertified cells of an elastic one and still be
-/// the better start: what is left of it is local, on folded wall faces.
-constexpr std::size_t k_carried_advantage = 10;
-
-/// A tangled start is worth nothing beyond the wall's displacement: spreads that by one linear
-/// solve, and where cells are left uncertified carries it through the layers instead.
-Start untangle_all(CurveResult& result, const LayerField& layers,
-                   const std::vector<Index>& curved_cells, std::vector<Index>& uncertified) {
-  Start best = Start::as_it_was;
-  const auto offer = [&](Start start, CurvedMesh state, std::size_t advantage) {
-    std::vector<Index> still = uncertified_cells(state, curved_cells);
-    if (still.size() >= advantage * uncertified.size()) return;
-    *result.curved = std::move(state);
-    uncertified = std::move(still);
-    best = start;
-  };
-  CurvedMesh relaxed = *result.curved;
-  const ElasticResult solve = relax_elastic(relaxed, curved_cells, free_nodes(relaxed));
-  result.report.rescue.elastic_products = static_cast<std::size_t>(solve.products);
-  offer(Start::elastic, std::move(relaxed), 1);
-  if (!uncertified.empty()) {
-    CurvedMesh carried = *result.curved;
-    apply_field(layers, carried);
-    offer(Start::carried, std::move(carried), k_carried_advantage);
-  }
-  return best;
-}
-
 }  // namespace
 
 CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
@@ -187,35 +142,22 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   watch.next("propagate");
   progress("propagate", 0.6);
   result.curved = std::make_unique<CurvedMesh>(mesh, topology, std::move(orders));
-  apply_field(field, *result.curved);
-  std::vector<Index> curved_cells;
-  for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
-    if (result.curved->cell_order(c) > 1) curved_cells.push_back(c);
-  }
-  bool is_elastic = options.propagation == Propagation::elastic;
-  if (is_elastic) {
-    relax_elastic(*result.curved, curved_cells, free_nodes(*result.curved));
-  }
+  VolumeStart start(*result.curved, field, layers, options.propagation);
+  start.propagate();
 
   watch.next("certify");
   progress("certify", 0.7);
-  std::vector<Index> uncertified = uncertified_cells(*result.curved, curved_cells);
-  if (is_tangled(options, uncertified.size(), curved_cells.size())) {
+  start.certify();
+  if (options.smoothing == Smoothing::automatic && start.is_tangled()) {
     watch.next("smooth");
-    const Start start = untangle_all(result, layers, curved_cells, uncertified);
-    is_elastic = start == Start::elastic || (is_elastic && start == Start::as_it_was);
+    start.replace();
   }
 
   watch.next("rescue");
   progress("rescue", 0.8);
-  const Carry carry = [&](CurvedMesh& curved, const std::vector<Index>& cells) {
-    apply_field(layers, curved, cells);
-    if (!is_elastic) return cells;
-    relax_elastic(curved, curved_cells, free_nodes(curved));
-    return curved_cells;
-  };
+  const Carry carry = [&start](const std::vector<Index>& cells) { return start.carry(cells); };
   const LadderResult ladder = climb(*result.curved, result.association, geometry, placement, carry,
-                                    wall, columns, pinched, uncertified);
+                                    wall, columns, pinched, start.uncertified());
 
   watch.next("smooth");
   progress("smooth", 0.85);
@@ -227,7 +169,7 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
 
   watch.next("measure");
   progress("measure", 0.9);
-  summarise(result, geometry, wall, placement, columns, ladder, options);
+  summarise(result, geometry, {wall, placement, columns, start.report(), ladder}, options);
   watch.stop();
   result.report.stages_s = watch.stages();
   for (const auto& [name, seconds] : watch.stages()) result.report.total_s += seconds;

@@ -126,11 +126,22 @@ Json rescue(const Report& report) {
           {"put_back", report.rescue.put_back},
           {"pinched", report.rescue.pinched},
           {"elastic_patches", report.rescue.elastic_patches},
-          {"elastic_products", report.rescue.elastic_products},
           {"edges_removed", report.rescue.edges_removed},
           {"pinched_split", report.rescue.pinched_split},
           {"mended", list_of(report.rescue.mended)},
           {"places", list_of(report.rescue.places)}};
+}
+
+Json start(const StartReport& start) {
+  return {{"asked", start.asked},
+          {"taken", start.taken},
+          {"uncertified_as_asked", start.uncertified_as_asked},
+          {"uncertified", start.uncertified},
+          {"elastic",
+           {{"solves", start.elastic.solves},
+            {"unconverged", start.elastic.unconverged},
+            {"products", start.elastic.products},
+            {"largest_residual", start.elastic.largest_residual}}}};
 }
 
 Json smooth(const Report& report) {
@@ -204,6 +215,7 @@ std::string json_report(const Report& report) {
       {"wall_nodes", report.wall_spacing.wall_nodes},
       {"first_cell_changed_over_1_percent", report.wall_spacing.first_cell_changed_over_1_percent},
       {"max_change", report.wall_spacing.max_change}};
+  json["start"] = start(report.start);
   json["rescue"] = rescue(report);
   json["smooth"] = smooth(report);
   json["time"] = time(report);

@@ -1,10 +1,10 @@
 #include <camber/base/sorted_set.hpp>
 #include <camber/pipeline/ladder.hpp>
+#include <camber/pipeline/volume_start.hpp>
 #include <camber/pipeline/wall_repair.hpp>
 #include <camber/smooth/elastic.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 namespace camber {
 namespace {
@@ -94,10 +94,10 @@ constexpr int k_relaxed_rings = 20;
 bool relax_around(CurvedMesh& curved, const std::vector<Index>& bad, LadderResult& result,
                   std::vector<Index>& still) {
   CurvedMesh relaxed = curved;
-  relax_elastic_around(relaxed, bad, k_relaxed_rings, free_nodes(curved));
-  std::vector<Index> all(curved.linear().cell_count());
-  std::iota(all.begin(), all.end(), 0);
-  still = uncertified_cells(relaxed, all);
+  const ElasticResult solve =
+      relax_elastic_around(relaxed, bad, k_relaxed_rings, free_nodes(curved));
+  add_solve(solve, result.elastic);
+  still = uncertified_cells(relaxed, solve.cells);
   if (still.size() >= bad.size()) return false;
   curved = std::move(relaxed);
   ++result.elastic_patches;
@@ -156,16 +156,20 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     const std::vector<Index> lowered = placement.lower(caps);
     changed.insert(changed.end(), lowered.begin(), lowered.end());
     make_sorted_set(changed);
-    if (changed.empty()) break;
+    if (changed.empty()) {  // nothing left to try: all that is bad is scaled back
+      bad.insert(bad.end(), to_lower.begin(), to_lower.end());
+      make_sorted_set(bad);
+      break;
+    }
     for (const auto& [slot, cap] : caps) result.lowered_faces.push_back(slot);
-    std::vector<Index> again = carry(curved, cells_over(mesh, topology, wall, columns, changed));
+    std::vector<Index> again = carry(cells_over(mesh, topology, wall, columns, changed));
     again.insert(again.end(), bad.begin(), bad.end());
     again.insert(again.end(), to_lower.begin(), to_lower.end());
+    // Cells that share no more than an edge have changed as well.
     for (Index c : std::vector<Index>(again)) {
-      for (Index f : topology.faces_of_cell(c)) {
-        for (Index side : topology.face2cell[at(f)]) {
-          if (side != k_none) again.push_back(side);
-        }
+      for (Index e : topology.edges_of_cell(c)) {
+        const std::span<const Index> around = topology.cells_of_edge(e);
+        again.insert(again.end(), around.begin(), around.end());
       }
     }
     make_sorted_set(again);

@@ -3,6 +3,7 @@
 #include <camber/elevate/columns.hpp>
 #include <camber/elevate/placement.hpp>
 #include <camber/elevate/rescue.hpp>
+#include <camber/pipeline/report.hpp>
 #include <camber/smooth/patch.hpp>
 
 #include <functional>
@@ -14,6 +15,7 @@ struct LadderResult {
   std::vector<Index> mended;            // first cells of groups mended by moving volume nodes only
   std::size_t load_steps = 0;           // of groups that needed them
   std::size_t elastic_patches = 0;      // elastic solves around bad cells that were kept
+  ElasticWork elastic;                  // of the third rung
   std::size_t wall_faces_smoothed = 0;  // faces whose nodes slid along the CAD
   std::vector<Index> lowered_faces;     // wall face slots whose shape was lowered below their order
   RescueResult scaled;                  // the last rung
@@ -22,8 +24,7 @@ struct LadderResult {
 
 /// Carries the wall's displacement, as Placement has it now, to the given cells again; returns all
 /// cells that it may have changed, sorted.
-using Carry =
-    std::function<std::vector<Index>(CurvedMesh& curved, const std::vector<Index>& cells)>;
+using Carry = std::function<std::vector<Index>(const std::vector<Index>& cells)>;
 
 /// Climbs only as far as needed, for the cells that are not certified:
 /// (Pinched cells start at 4.)

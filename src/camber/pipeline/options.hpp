@@ -4,10 +4,13 @@
 #include <camber/io/meshlink/meshlink.hpp>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace camber {
+
+struct SurfaceLink;  // pipeline/own_surface.hpp
 
 /// How the wall's displacement is carried into the volume.
 enum class Propagation {
@@ -27,8 +30,9 @@ enum class Smoothing {
 enum class LinkBy {
   automatic,  // tags if they fit the CAD, else shape (default)
   tags,
-  shape,  // place and shape alone, tags or not
-  file    // CurveOptions::mesh_link
+  shape,       // place and shape alone, tags or not
+  file,        // CurveOptions::mesh_link
+  own_surface  // CurveOptions::surface_link
 };
 
 /// Everything a run of curve() depends on besides its files.
@@ -43,7 +47,8 @@ struct CurveOptions {
   double scale = 0.0;         // --unit: mesh length per CAD length (read as mm); 0: found
   TagOptions association;     // --patch
   LinkBy link_by = LinkBy::automatic;
-  io::MeshLink mesh_link;      // --link FILE
+  io::MeshLink mesh_link;                           // --link FILE
+  std::shared_ptr<const SurfaceLink> surface_link;  // set by curve_without_cad()
   bool fit = false;            // slide wall nodes until the faces follow the CAD best
   bool split_pinched = false;  // mend cells that no curved wall can leave valid (unpinch.hpp)
   bool allow_invalid = false;  // write even if something is not certified

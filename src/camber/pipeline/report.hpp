@@ -49,6 +49,20 @@ struct RescuePlace {
       reason;  // "scaled back", "order lowered", "pinched between faces of one surface", ...
 };
 
+/// All elastic solves of a run (smooth/elastic.hpp).
+struct ElasticWork {
+  std::size_t solves = 0, unconverged = 0;
+  std::size_t products = 0;       // with the stiffness, of all solves
+  double largest_residual = 0.0;  // relative, of the solve that ended worst
+};
+
+/// How the wall's displacement first reached the volume (pipeline/volume_start.hpp).
+struct StartReport {
+  std::string asked, taken;  // "layer", "elastic", "cell"; taken: what replaced a tangled start
+  std::size_t uncertified_as_asked = 0, uncertified = 0;  // cells after each
+  ElasticWork elastic;                                    // of the start and of the rescue
+};
+
 struct Report {
   std::string command;        // "curve", "check", ...
   std::string status = "ok";  // ok | not_certified | scaled_back | over_deviation | error
@@ -97,15 +111,15 @@ struct Report {
     std::size_t below_target = 0;
     Histogram cost{}, scaled_jacobian{};
   } quality;
+  StartReport start;
   std::vector<SmoothRow> smooth;  // how smoothing went, if it was asked for
   struct {
     std::size_t columns = 0, wall_nodes = 0, first_cell_changed_over_1_percent = 0;
     double max_change = 0.0;
   } wall_spacing;
   struct {
-    std::size_t faces_smoothed = 0;    // wall faces whose nodes slid along the CAD
-    std::size_t elastic_patches = 0;   // elastic solves around cells that nothing else mended
-    std::size_t elastic_products = 0;  // of the linear solve that replaced a tangled start
+    std::size_t faces_smoothed = 0;   // wall faces whose nodes slid along the CAD
+    std::size_t elastic_patches = 0;  // elastic solves around cells that nothing else mended
     std::size_t load_steps = 0, patches = 0, orders_lowered = 0, scaled_back = 0;
     std::size_t put_back = 0;  // cells that smoothing made worse than any was: as before it
     std::size_t pinched = 0;   // tets with two faces or three edges on one smooth CAD face

@@ -201,6 +201,7 @@ void measure_wall_spacing(const CurveResult& result, const Wall& wall, const Col
     if (columns.cell_face_slot[at(c)] != static_cast<Index>(s)) continue;
     const int p = curved.cell_order(c);
     const Shape shape = curved.linear().cell_shape[at(c)];
+    if (shape == Shape::tetrahedron) continue;  // no lattice line of a tet follows the column
     Points x, straight;
     curved.gather(c, p, x);
     curved.gather_straight(c, p, straight);
@@ -289,7 +290,23 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
   }
 }
 
+void list_start(const StartReport& start, const LadderResult& ladder, Report& report) {
+  report.start = start;
+  ElasticWork& all = report.start.elastic;
+  all.solves += ladder.elastic.solves;
+  all.unconverged += ladder.elastic.unconverged;
+  all.products += ladder.elastic.products;
+  all.largest_residual = std::max(all.largest_residual, ladder.elastic.largest_residual);
+}
+
 void warn(const CurveResult& result, Report& report) {
+  const ElasticWork& elastic = report.start.elastic;
+  if (elastic.unconverged > 0) {
+    report.warnings.push_back(
+        fmt::format("{} of {} elastic solves stopped before they converged (residual {:.1g}); what "
+                    "they gave is certified all the same",
+                    elastic.unconverged, elastic.solves, elastic.largest_residual));
+  }
   if (result.linear->sewn_vertices > 0) {
     report.warnings.push_back(fmt::format(
         "{} vertices had a twin at the same place and were joined: the parts of the mesh did not "
@@ -358,9 +375,9 @@ std::size_t peak_memory() {
 
 }  // namespace
 
-void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& wall,
-               const Placement& placement, const Columns& columns, const LadderResult& ladder,
+void summarise(CurveResult& result, const GeometryModel& geometry, const Made& made,
                const CurveOptions& options) {
+  const auto& [wall, placement, columns, start, ladder] = made;
   Report& report = result.report;
   report.command = "curve";
   report.threads = thread_count();
@@ -370,6 +387,7 @@ void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& w
   measure_conformity(result, report);
   measure_surface(result, geometry, wall, placement, options, report);
   measure_wall_spacing(result, wall, columns, report);
+  list_start(start, ladder, report);
   list_rescue(result, wall, placement, ladder, report);
   warn(result, report);
   decide(result, placement, wall, ladder, options, report);

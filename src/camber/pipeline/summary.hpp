@@ -6,10 +6,18 @@
 
 namespace camber {
 
+/// What the stages of curve() made, besides its result.
+struct Made {
+  const Wall& wall;
+  const Placement& placement;
+  const Columns& columns;
+  const StartReport& start;
+  const LadderResult& ladder;
+};
+
 /// Certificates, cost, surface error by group and order, wall spacing, gaps, rescue: everything
 /// measured on the final nodes, nothing carried over from the stages that made them.
-void summarise(CurveResult& result, const GeometryModel& geometry, const Wall& wall,
-               const Placement& placement, const Columns& columns, const LadderResult& ladder,
+void summarise(CurveResult& result, const GeometryModel& geometry, const Made& made,
                const CurveOptions& options);
 
 }  // namespace camber

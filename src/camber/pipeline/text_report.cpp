@@ -129,6 +129,9 @@ constexpr double k_sure = 0.7;
 /// Only what was found by shape needs telling.
 void add_link(const Report& report, std::string& out) {
   const auto& link = report.link;
+  if (link.method == "mesh") {
+    out += fmt::format("\nGeometry: made from the mesh, there is no CAD\n  {}\n", link.reason);
+  }
   if (link.method != "shape") return;
   bool is_any = false;
   out += "\nLink to the CAD: found by shape\n";
@@ -246,6 +249,18 @@ void add_quality(const Report& report, std::string& out) {
   out += table.text();
 }
 
+void add_start(const Report& report, std::string& out) {
+  const StartReport& s = report.start;
+  if (s.uncertified_as_asked == 0 && s.elastic.solves == 0) return;
+  out += "\nStart (the wall's displacement carried into the volume)\n";
+  out += fmt::format("  --propagate {}: {} cells not certified", s.asked, s.uncertified_as_asked);
+  if (s.taken != s.asked) out += fmt::format("; replaced by {}: {}", s.taken, s.uncertified);
+  out += "\n";
+  if (s.elastic.solves == 0) return;
+  out += fmt::format("  {} elastic solves, {} products with the stiffness, {} not converged\n",
+                     s.elastic.solves, s.elastic.products, s.elastic.unconverged);
+}
+
 void add_rescue(const Report& report, std::string& out) {
   const auto& r = report.rescue;
   if (r.edges_removed + r.pinched_split > 0) {
@@ -327,6 +342,7 @@ std::string text_report(const Report& report) {
   add_conformity(report, out);
   add_wall(report, out);
   add_quality(report, out);
+  add_start(report, out);
   add_rescue(report, out);
   add_smooth(report, out);
   add_foot(report, out);

@@ -18,6 +18,7 @@ ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
   const CurvedMesh straight(curved.linear(), curved.topology(), curved.orders());
   detail::CellEnergy energy(curved, cells, is_free);
   ElasticResult result;
+  result.cells = cells;
   result.unknowns = energy.unknowns().size();
   if (result.unknowns == 0) return result;
   const detail::GroupSolver solver = detail::GroupSolver::across_thin_cells(energy);
@@ -41,6 +42,7 @@ ElasticResult relax_elastic(CurvedMesh& curved, const std::vector<Index>& cells,
     rz = next;
   }
   result.residual = first > 0.0 ? std::sqrt(rz / first) : 0.0;
+  result.is_converged = result.residual <= options.tolerance;
   energy.store(energy.positions(straight) + u, curved);
   return result;
 }

@@ -14,6 +14,8 @@ struct ElasticOptions {
 struct ElasticResult {
   int products = 0;       // with the stiffness
   double residual = 0.0;  // relative, at the end
+  bool is_converged = true;
+  std::vector<Index> cells;  // sorted: those whose nodes took part
   std::size_t unknowns = 0, largest_group = 0;
 };
 
