@@ -124,7 +124,7 @@ class App {
 
   colourLinear() {
     const {mode, surface, linear} = this;
-    const of = (f) => (mode.linear ?? mode).ofFace?.(f) ?? mode.ofCell(surface.cell[f]);
+    const of = (f) => (mode.linear || mode).ofFace?.(f) ?? mode.ofCell(surface.cell[f]);
     const values = new Float32Array(3 * linear.face.length);
     linear.face.forEach((f, t) => values.fill(of(f), 3 * t, 3 * t + 3));
     this.stage.setLinear(linear.triangles, values);

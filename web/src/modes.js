@@ -49,7 +49,7 @@ function deviationMode(points, cells, linear) {
     missing: 'planar, inside, or no CAD', texels: maps.ember, range: curved.range,
     ofCell: (c) => curved.at(cells[c]), ofPoint: (p) => curved.at(points[p]),
     // The flat faces miss by far more: they have a scale of their own.
-    linear: {note: 'largest distance of the linear faces to the CAD [mesh units], log scale', range: flat.range, ofFace: (f) => flat.at(linear[f])},
+    linear: linear.some(Number.isFinite) && {note: 'largest distance of the linear faces to the CAD [mesh units], log scale', range: flat.range, ofFace: (f) => flat.at(linear[f])},
   };
 }
 

@@ -147,6 +147,24 @@ class PageWriter {
     add_faces(t, group);
   }
 
+  /// Measured where the geometry is at hand, else what the run that made the mesh found by face.
+  [[nodiscard]] SurfaceDeviation deviations(const Tessellation& t,
+                                            const std::vector<GeometryGroup>& group) const {
+    if (geometry_) return surface_deviation(cells_, faces_, group, t, *geometry_);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    SurfaceDeviation result{std::vector<double>(faces_.size(), nan),
+                            std::vector<double>(faces_.size(), nan),
+                            std::vector<double>(t.points.size(), nan)};
+    if (content_.surface_deviation.empty()) return result;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      if (faces_[f].surface == k_none) continue;
+      result.face[f] = content_.surface_deviation[at(faces_[f].surface)];
+      std::fill(result.point.begin() + t.first_point[f],
+                result.point.begin() + t.first_point[f + 1], result.face[f]);
+    }
+    return result;
+  }
+
   void add_faces(const Tessellation& t, const std::vector<GeometryGroup>& group) {
     std::map<std::string, std::uint16_t> patches;
     std::vector<std::uint32_t> cell;
@@ -162,11 +180,10 @@ class PageWriter {
     payload_.add("face_cell", cell);
     payload_.add("face_patch", patch);
     cell_deviation_.assign(cells_.size(), std::numeric_limits<float>::quiet_NaN());
-    has_deviation_ = geometry_ && std::any_of(group.begin(), group.end(), [&](const auto& g) {
-                       return is_curved(g, *geometry_);
-                     });
+    const SurfaceDeviation deviation = deviations(t, group);
+    has_deviation_ = std::any_of(deviation.face.begin(), deviation.face.end(),
+                                 [](double d) { return std::isfinite(d); });
     if (!has_deviation_) return;
-    const SurfaceDeviation deviation = surface_deviation(cells_, faces_, group, t, *geometry_);
     payload_.add("point_deviation", floats(deviation.point));
     payload_.add("face_linear_deviation", floats(deviation.linear));
     for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -324,6 +341,8 @@ PageContent page_content(const CurveResult& result, const std::string& title) {
         const Index f = map.face[element];
         const Patch* patch = f == k_none ? nullptr : result.association.patch_of(f);
         content.surface_groups.push_back(patch ? patch->group : GeometryGroup{});
+        content.surface_deviation.push_back(f == k_none ? std::numeric_limits<double>::quiet_NaN()
+                                                        : result.face_deviation[at(f)]);
       }
     }
   }

@@ -16,8 +16,11 @@ struct PageContent {
   MeshData mesh;                              // elements of mixed order
   CellFindings findings;                      // by volume element of `mesh`
   std::vector<GeometryGroup> surface_groups;  // by surface element: its CAD faces; may be empty
-  std::string title;                          // of the window: mostly the file's name
-  std::string report;                         // of json_report(), "" for none
+  // By surface element: its largest distance to the geometry [length], NaN for none; may be empty.
+  // Shown where the geometry itself is not given.
+  std::vector<double> surface_deviation;
+  std::string title;   // of the window: mostly the file's name
+  std::string report;  // of json_report(), "" for none
 };
 
 struct PageOptions {
@@ -36,7 +39,8 @@ struct PageOptions {
 /// Data: points and normals of the surface (32 and 16 bits, about the centre of the mesh's box),
 /// what is known of every face and cell, nodes of all cells for the cut. About 60 bytes a triangle
 /// and 150 bytes a cell.
-/// @param geometry  null: no deviation is shown; else its scale is that of the mesh
+/// @param geometry  null: content.surface_deviation is shown, if there; else its scale is that of
+/// the mesh
 /// @throws MeshError if there is no volume element. Threads: parallel inside, the same bytes for
 ///         any number of them.
 [[nodiscard]] std::string page_html(const PageContent& content, const GeometryModel* geometry,
