@@ -23,7 +23,8 @@ else
 fi
 
 for file in bin/camber include/camber/pipeline/curve.hpp lib/python3/dist-packages/camber/__init__.py \
-    lib/python3/dist-packages/camber/py.typed share/doc/Camber/docs/python.md; do
+    lib/python3/dist-packages/camber/py.typed share/doc/Camber/docs/python.md share/man/man1/camber.1 \
+    share/bash-completion/completions/camber; do
   [ -f "$root/usr/$file" ] || fail "$file is not in the package"
 done
 [ -n "$(find "$root/usr/lib" -name CamberConfig.cmake)" ] || fail "no CMake package"

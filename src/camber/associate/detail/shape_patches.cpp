@@ -83,13 +83,36 @@ bool all_planar(const GeometryModel& model, const GeometryGroup& group) {
                      [&](const GeomEntity& face) { return model.is_planar(face.tag); });
 }
 
+/// A patch of the file off the CAD that falls into more pieces than this, of a few faces each, is
+/// the ragged top of a layer mesh or the like: no planes to be kept, one patch.
+constexpr std::size_t k_most_pieces = 64;
+constexpr std::size_t k_ragged = 4;
+
+void join_jagged(const Boundary& boundary, const FaceMatch& match, std::vector<Index>& piece) {
+  std::map<int, std::set<Index>> pieces;
+  std::map<int, std::size_t> faces;
+  for (std::size_t s = 0; s < boundary.faces.size(); ++s) {
+    if (!match.group[s].empty()) continue;
+    pieces[boundary.faces[s].entity].insert(piece[s]);
+    ++faces[boundary.faces[s].entity];
+  }
+  for (std::size_t s = 0; s < boundary.faces.size(); ++s) {
+    if (!match.group[s].empty()) continue;
+    const std::set<Index>& all = pieces[boundary.faces[s].entity];
+    if (all.size() > k_most_pieces && faces[boundary.faces[s].entity] < k_ragged * all.size()) {
+      piece[s] = *all.begin();
+    }
+  }
+}
+
 }  // namespace
 
 void make_shape_patches(const LinearMesh& mesh, const Topology& topology, const Boundary& boundary,
                         const GeometryModel& model, const FaceMatch& match,
                         const std::vector<PatchRule>& rules, Association& association,
                         std::vector<double>& confidence) {
-  const std::vector<Index> piece = pieces_without_cad(topology, boundary, match);
+  std::vector<Index> piece = pieces_without_cad(topology, boundary, match);
+  join_jagged(boundary, match, piece);
   std::map<Key, std::vector<Index>> slots;
   for (std::size_t s = 0; s < boundary.faces.size(); ++s) {
     slots[{boundary.faces[s].entity, match.group[s], piece[s]}].push_back(static_cast<Index>(s));
