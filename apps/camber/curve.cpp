@@ -1,6 +1,7 @@
 // camber curve: the main job, from a linear mesh and its CAD to a certified curved mesh in a file.
 #include <camber/base/error.hpp>
 #include <camber/geom_occ/cad_file.hpp>
+#include <camber/page/page.hpp>
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/geometry_source.hpp>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <memory>
 
@@ -28,7 +30,7 @@ struct CurveFlags {
   CurveOptions options;
   std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
                     smoothing = "auto";
-  std::string link = "auto";
+  std::string link = "auto", page;
   bool is_quality_given = false;
   double feature_angle = FeatureOptions{}.angle;
   std::vector<std::string> geometry, outputs, patches, periodic;
@@ -151,9 +153,12 @@ double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certifie
 int run(const CurveFlags& flags) {
   const Clock::time_point begin = Clock::now();
   const CurveOptions options = options_of(flags);
-  std::vector<std::string> inputs{flags.mesh};
+  std::vector<std::string> inputs{flags.mesh}, outputs = flags.outputs;
   if (!is_without_cad(flags)) inputs.push_back(only_geometry(flags.geometry));
-  refuse_overwriting(inputs, flags.outputs);
+  if (!flags.page.empty()) outputs.push_back(flags.page);
+  refuse_overwriting(inputs, outputs);
+  // A stated format: the name of the page may have any extension.
+  if (!flags.page.empty()) io::check_writable(flags.page, {.format = io::Format::gmsh});
   for (const std::string& path : flags.outputs) io::check_writable(path, flags.format.writing());
 
   ProgressLine line(flags.common.shows_progress());
@@ -195,6 +200,17 @@ int run(const CurveFlags& flags) {
   }
   report.total_s = seconds_since(begin);
   report.peak_bytes = peak_memory();
+  if (!flags.page.empty()) {
+    line.show("page", 1.0);
+    const std::string title = std::filesystem::path(flags.outputs.front()).filename().string();
+    // Written even if the mesh is not: what is not certified wants to be looked at most of all.
+    const Clock::time_point start = Clock::now();
+    write_text(flags.page, page_html(page_content(result, title), geometry.get()));
+    // The page shows the report as it was before.
+    report.stages_s.emplace_back("page", seconds_since(start));
+    report.total_s = seconds_since(begin);
+    stop_if_interrupted();
+  }
   line.clear();
   return deliver(report, flags.common);
 }
@@ -271,6 +287,9 @@ Verb add_curve(CLI::App& app) {
       ->type_name("OUT")
       ->expected(1)
       ->take_all();
+  verb->add_option("--page", flags->page,
+                   "page to write: the curved mesh and the report as one HTML file (docs/page.md)")
+      ->type_name("PAGE");
   add_order_flags(*verb, *flags);
   add_smoothing_flags(*verb, *flags);
   add_unit_flag(*verb, flags->unit);

@@ -56,8 +56,8 @@ int parse_and_run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   const std::string version_line = fmt::format("camber {}", version());
   app.set_version_flag("--version", version_line);
-  const std::vector<Verb> verbs{add_curve(app), add_associate(app), add_check(app),
-                                add_info(app),  add_convert(app),   add_cite(app)};
+  const std::vector<Verb> verbs{add_curve(app),   add_associate(app), add_check(app), add_info(app),
+                                add_convert(app), add_report(app),    add_cite(app)};
   for (const Verb& verb : verbs) verb.app->set_version_flag("--version", version_line);
   try {
     app.parse(argc, argv);
@@ -74,7 +74,8 @@ int parse_and_run(int argc, char** argv) {
     if (verb.app->parsed()) return run(verb);
   }
   print_error(
-      "a verb is needed: curve, associate, check, info, convert or cite (see: camber --help)");
+      "a verb is needed: curve, associate, check, info, convert, report or cite (see: camber "
+      "--help)");
   return k_usage;
 }
 

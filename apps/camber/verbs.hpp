@@ -9,6 +9,7 @@ namespace camber::app {
 [[nodiscard]] Verb add_check(CLI::App& app);
 [[nodiscard]] Verb add_info(CLI::App& app);
 [[nodiscard]] Verb add_convert(CLI::App& app);
+[[nodiscard]] Verb add_report(CLI::App& app);
 [[nodiscard]] Verb add_cite(CLI::App& app);
 
 }  // namespace camber::app

@@ -12,7 +12,7 @@ LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)(?:\s+\"[^\"]*\")?\)|(?:src|href)=\"([^
 HEADING = re.compile(r"^#+\s+(.*?)\s*#*$", re.MULTILINE)
 CODE = re.compile(r"^```.*?^```|`[^`\n]*`", re.MULTILINE | re.DOTALL)
 CITATION = re.compile(r"\[([a-z]+(?:19|20)\d\d)\]")
-SKIPPED = {"build", "out", ".git"}
+SKIPPED = {"build", "out", ".git", "node_modules"}
 
 
 def anchors(text):

@@ -1,6 +1,6 @@
 // MeshLink files: our own miniature, round trips, hostile input and files of other programs.
 #include <camber/base/error.hpp>
-#include <camber/io/detail/base64.hpp>
+#include <camber/io/base64.hpp>
 #include <camber/io/meshlink/meshlink.hpp>
 
 #include <array>

@@ -57,7 +57,7 @@ void refuse_what_cannot_be_judged(const MeshData& data, const ElementList& cells
   }
 }
 
-void certify_cells(const ElementList& cells, Report& report) {
+void certify_cells(const ElementList& cells, Report& report, CellFindings* findings) {
   const std::size_t n = cells.size();
   const std::vector<JacobianBounds> bounds = certify_all(n, [&](std::size_t i, Points& nodes) {
     cells.gather(i, nodes);
@@ -83,6 +83,10 @@ void certify_cells(const ElementList& cells, Report& report) {
                            const double y = bounds[b].scaled_jacobian;
                            return x != y ? x < y : a < b;
                          });
+  if (findings) {
+    findings->bound.resize(n);
+    for (std::size_t i = 0; i < n; ++i) findings->bound[i] = bounds[i].scaled_jacobian;
+  }
   for (std::size_t i : worst) {
     validity.worst.push_back(
         {cells.tag(i), cells.shape(i), cells.order(i), cells.centre(i), bounds[i].scaled_jacobian});
@@ -90,7 +94,7 @@ void certify_cells(const ElementList& cells, Report& report) {
 }
 
 /// A linear cell is its own straight copy: C = 1.
-void measure_quality(const ElementList& cells, Report& report) {
+void measure_quality(const ElementList& cells, Report& report, CellFindings* findings) {
   const std::size_t n = cells.size();
   std::vector<double> cost(n, 1.0);
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
@@ -108,6 +112,7 @@ void measure_quality(const ElementList& cells, Report& report) {
     quality.below_target += c < quality.target;
   }
   quality.average = ordered_sum(n, [&](std::size_t i) { return cost[i]; }) / static_cast<double>(n);
+  if (findings) findings->cost = std::move(cost);
 }
 
 std::string place(const Vec3& x) {
@@ -150,7 +155,8 @@ bool judge_faces(const MeshData& data, const ElementList& cells, const ElementLi
 
 }  // namespace
 
-Report check(const MeshData& data, const GeometryModel* geometry, const CheckOptions& options) {
+Report check(const MeshData& data, const GeometryModel* geometry, const CheckOptions& options,
+             CellFindings* findings) {
   using Clock = std::chrono::steady_clock;
   Report report;
   report.command = "check";
@@ -166,8 +172,8 @@ Report check(const MeshData& data, const GeometryModel* geometry, const CheckOpt
     report.total_s += seconds;
   };
   bool fits = true;
-  timed("certify", [&] { certify_cells(cells, report); });
-  if (options.with_quality) timed("quality", [&] { measure_quality(cells, report); });
+  timed("certify", [&] { certify_cells(cells, report, findings); });
+  if (options.with_quality) timed("quality", [&] { measure_quality(cells, report, findings); });
   timed("conformity", [&] { fits = judge_faces(data, cells, surfaces, report); });
   if (geometry) {
     timed("surface",

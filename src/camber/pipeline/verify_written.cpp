@@ -1,6 +1,6 @@
 #include <camber/base/error.hpp>
+#include <camber/mesh/element_list.hpp>
 #include <camber/pipeline/check.hpp>
-#include <camber/pipeline/detail/element_list.hpp>
 #include <camber/validity/batch.hpp>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <camber/base/error.hpp>
-#include <camber/io/detail/base64.hpp>
+#include <camber/io/base64.hpp>
 #include <camber/io/detail/hash.hpp>
 #include <camber/io/detail/input_file.hpp>
 #include <camber/io/detail/mesh_check.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 // Do the elements of a file fit together? Faces are matched by their corner nodes.
-#include <camber/pipeline/detail/element_list.hpp>
+#include <camber/mesh/element_list.hpp>
 
 #include <cstddef>
 

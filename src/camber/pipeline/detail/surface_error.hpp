@@ -1,7 +1,7 @@
 #pragma once
 // How far the surface elements of a file are from the CAD that their tags refer to.
 #include <camber/geom/geometry_model.hpp>
-#include <camber/pipeline/detail/element_list.hpp>
+#include <camber/mesh/element_list.hpp>
 #include <camber/pipeline/report.hpp>
 
 namespace camber {

@@ -1,4 +1,4 @@
-#include <camber/io/detail/base64.hpp>
+#include <camber/io/base64.hpp>
 
 namespace camber::io {
 namespace {

@@ -1,4 +1,4 @@
-#include <camber/pipeline/detail/element_list.hpp>
+#include <camber/mesh/element_list.hpp>
 
 namespace camber {
 
