@@ -160,9 +160,12 @@ def lattice(shape, p):
     return np.array(points)
 
 
-def compare(cells, faces, order, expected_file):
-    """Compares with the lists of write_sizes (hybrid_mesh.hpp). Returns the number of problems."""
-    expected = {'volume': [], 'area': [], 'node': []}
+def compare(cells, faces, order, expected_file, all_faces=None):
+    """Compares with the lists of write_sizes (hybrid_mesh.hpp). Returns the number of problems.
+
+    Formats without nodes inside of cells give all their faces; the nodes are looked for on these.
+    """
+    expected = {'volume': [], 'area': [], 'node': [], 'inner': []}
     with open(expected_file) as f:
         for line in f:
             kind, *numbers = line.split()
@@ -180,8 +183,8 @@ def compare(cells, faces, order, expected_file):
         if not worst <= tolerance:
             print(f'{kind}: differs by {worst}: {found} instead of {wanted}')
             problems += 1
-    found = np.concatenate([e.at(lattice(e.shape, order)) for e in cells])
-    wanted = np.array(expected['node'])
+    found = np.concatenate([e.at(lattice(e.shape, order)) for e in all_faces or cells])
+    wanted = np.array(expected['node'] + ([] if all_faces else expected['inner']))
     gaps = np.linalg.norm(found[:, None] - wanted[None], axis=2)
     for gap, what in ((gaps.min(axis=1).max(), 'a point that is no node'),
                       (gaps.min(axis=0).max(), 'a node that is missing')):

@@ -207,8 +207,20 @@ void write_sizes(const MeshData& mesh, const std::string& path) {
       text << (dimension(b.shape) == 3 ? "volume " : "area ") << sizes[e] << '\n';
     }
   }
-  for (const Vec3& x : mesh.points) {
-    text << "node " << x.x() << ' ' << x.y() << ' ' << x.z() << '\n';
+  std::vector<char> is_inner(mesh.points.size(), 0);
+  for (const ElementBlock& b : mesh.blocks) {
+    if (dimension(b.shape) < 3) continue;
+    const auto per = static_cast<std::size_t>(node_count(b.shape, b.order));
+    for (std::size_t k = 0; k < b.nodes.size(); k += per) {
+      for (const int n : lattice_map(b.shape, b.order).interior) {
+        is_inner[at(b.nodes[k + static_cast<std::size_t>(n)])] = 1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const Vec3& x = mesh.points[i];
+    text << (is_inner[i] != 0 ? "inner " : "node ") << x.x() << ' ' << x.y() << ' ' << x.z()
+         << '\n';
   }
   spill(path, text.str());
 }

@@ -17,7 +17,8 @@ namespace camber::io {
 [[nodiscard]] MeshData hybrid_of_mixed_order(unsigned seed);
 
 /// What the independent readers compare with: lines "volume V", "area A" for each cell and surface
-/// element of dimension 3 and 2, and "node X Y Z" for each point of the mesh.
+/// element of dimension 3 and 2, and "node X Y Z" for each point of the mesh, "inner X Y Z" for
+/// those inside of a cell.
 void write_sizes(const MeshData& mesh, const std::string& path);
 
 }  // namespace camber::io

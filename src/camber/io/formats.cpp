@@ -26,6 +26,8 @@ constexpr std::array k_formats{
     FormatInfo{Format::mfem, "mfem", ".mesh", "MFEM 1.0", false, true, 4, false, false,
                "volumes and patches by number, names as comments",
                "MFEM, GLVis; pyramids above order 1: MFEM 4.8 or later"},
+    FormatInfo{Format::nektar, "nektar", ".xml", "Nektar++ geometry (XML, text)", false, true, 4,
+               false, false, "volumes and patches by name; no nodes inside of cells", "Nektar++"},
     FormatInfo{Format::vtu, "vtu", ".vtu", "VTK unstructured grid", false, true, 4, true, true,
                "groups and results, for viewing", "ParaView, PyVista"},
 };

@@ -7,7 +7,7 @@
 
 namespace camber::io {
 
-enum class Format { automatic, gmsh, vtu, cgns, su2, ugrid, mfem };
+enum class Format { automatic, gmsh, vtu, cgns, su2, ugrid, mfem, nektar };
 
 struct FormatInfo {
   Format format;

@@ -10,6 +10,7 @@
 #include <camber/io/gmsh/gmsh_writer.hpp>
 #include <camber/io/mesh_file.hpp>
 #include <camber/io/mfem/mfem_writer.hpp>
+#include <camber/io/nektar/nektar_writer.hpp>
 #include <camber/io/su2/su2_reader.hpp>
 #include <camber/io/su2/su2_writer.hpp>
 #include <camber/io/ugrid/ugrid_layout.hpp>
@@ -53,6 +54,7 @@ MeshData read_as(Format format, const std::string& path) {
       return read_ugrid(path);
     case Format::vtu:
     case Format::mfem:
+    case Format::nektar:
     case Format::automatic:
       break;
   }
@@ -87,6 +89,7 @@ void require_order(const MeshData& mesh, const FormatInfo& info, const std::stri
 
 NameRules name_rules(Format format) {
   if (format == Format::mfem) return mfem_name_rules();
+  if (format == Format::nektar) return nektar_name_rules();
   if (format == Format::cgns) return cgns_name_rules();
   return format == Format::su2 ? su2_name_rules() : ugrid_name_rules();
 }
@@ -106,6 +109,10 @@ void write_named(const MeshData& mesh, const std::string& path, Format format,
   const NamedMesh named = by_names(mesh, name_rules(format));
   if (format == Format::mfem) {
     write_only(path, [&](const std::string& to) { return write_mfem(named, to, path); });
+    return;
+  }
+  if (format == Format::nektar) {
+    write_only(path, [&](const std::string& to) { return write_nektar(named, to, path); });
     return;
   }
   write_atomically(
