@@ -28,6 +28,8 @@ constexpr std::array k_formats{
                "MFEM, GLVis; pyramids above order 1: MFEM 4.8 or later"},
     FormatInfo{Format::nektar, "nektar", ".xml", "Nektar++ geometry (XML, text)", false, true, 4,
                false, false, "volumes and patches by name; no nodes inside of cells", "Nektar++"},
+    FormatInfo{Format::hopr, "hopr", ".h5", "HOPR mesh (HDF5)", false, true, 4, false, false,
+               "patches by name, volumes by number", "FLEXI, PICLas; HORSES3D: hexes only"},
     FormatInfo{Format::vtu, "vtu", ".vtu", "VTK unstructured grid", false, true, 4, true, true,
                "groups and results, for viewing", "ParaView, PyVista"},
 };

@@ -8,6 +8,7 @@
 #include <camber/io/detail/temporary_file.hpp>
 #include <camber/io/gmsh/gmsh_reader.hpp>
 #include <camber/io/gmsh/gmsh_writer.hpp>
+#include <camber/io/hopr/hopr_file.hpp>
 #include <camber/io/mesh_file.hpp>
 #include <camber/io/mfem/mfem_writer.hpp>
 #include <camber/io/nektar/nektar_writer.hpp>
@@ -55,6 +56,7 @@ MeshData read_as(Format format, const std::string& path) {
     case Format::vtu:
     case Format::mfem:
     case Format::nektar:
+    case Format::hopr:
     case Format::automatic:
       break;
   }
@@ -90,6 +92,7 @@ void require_order(const MeshData& mesh, const FormatInfo& info, const std::stri
 NameRules name_rules(Format format) {
   if (format == Format::mfem) return mfem_name_rules();
   if (format == Format::nektar) return nektar_name_rules();
+  if (format == Format::hopr) return hopr_name_rules();
   if (format == Format::cgns) return cgns_name_rules();
   return format == Format::su2 ? su2_name_rules() : ugrid_name_rules();
 }
@@ -113,6 +116,13 @@ void write_named(const MeshData& mesh, const std::string& path, Format format,
   }
   if (format == Format::nektar) {
     write_only(path, [&](const std::string& to) { return write_nektar(named, to, path); });
+    return;
+  }
+  if (format == Format::hopr) {
+    const hopr::Arrays arrays = hopr::make_arrays(named, path);
+    write_atomically(
+        path, [&](const std::string& temporary) { write_hopr(arrays, temporary, path); },
+        [&](const std::string& temporary) { check_hopr(arrays, temporary, path); });
     return;
   }
   write_atomically(

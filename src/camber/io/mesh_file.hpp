@@ -37,7 +37,7 @@ void check_writable(const std::string& path, const WriteOptions& options = {});
 /// leave the temporary ".NAME.XXXXXX.tmp" behind, never a damaged `path`.
 /// Points may come back sorted by entity; elements keep their order (see gmsh_writer.hpp). Formats
 /// that know patches by name only join entities of one name; verify gets the source mesh with the
-/// nodes as read back. Formats without a reader (.vtu, .mesh) are compared byte by byte with what
+/// nodes as read back. Formats without a reader (.vtu, .mesh, .xml, .h5) are compared with what
 /// was meant, and verify is not called. Where a format holds one order, elements of lower order are
 /// raised exactly (see raised_order), which is logged.
 void write_mesh(const MeshData& mesh, const std::string& path, const WriteOptions& options = {},
