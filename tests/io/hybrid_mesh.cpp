@@ -192,7 +192,8 @@ MeshData hybrid_of_mixed_order(unsigned seed) {
                            x.x() * x.y() + 0.5 * x.z() * x.z());
   };
   return Maker(seed).make(bend, [](std::size_t i, std::mt19937& random) {
-    return i < 3 ? static_cast<int>(i) + 2 : 2 + static_cast<int>(random() % 3);
+    constexpr std::array k_orders{2, 3, 2, 2, 4};  // hexes, pyramids, the prism; then tets
+    return i < k_orders.size() ? k_orders[i] : 2 + static_cast<int>(random() % 3);
   });
 }
 

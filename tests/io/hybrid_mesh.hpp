@@ -12,8 +12,8 @@ namespace camber::io {
 /// elements of two patches, "wall" and "far & <away>"; cells are in the volumes "left" and "right".
 [[nodiscard]] MeshData hybrid(int order, unsigned seed);
 
-/// The same cells of orders 2 to 4, bent by a quadratic map, so that every cell makes the same of a
-/// common face. Neighbours of one order share nodes, others their corners only.
+/// The same cells of orders 2 to 4 (pyramids: 2), bent by a quadratic map, so that every cell makes
+/// the same of a common face. Neighbours of one order share nodes, others their corners only.
 [[nodiscard]] MeshData hybrid_of_mixed_order(unsigned seed);
 
 /// What the independent readers compare with: lines "volume V", "area A" for each cell and surface

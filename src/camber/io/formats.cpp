@@ -30,8 +30,9 @@ constexpr std::array k_formats{
                false, false, "volumes and patches by name; no nodes inside of cells", "Nektar++"},
     FormatInfo{Format::hopr, "hopr", ".h5", "HOPR mesh (HDF5)", false, true, 4, false, false,
                "patches by name, volumes by number", "FLEXI, PICLas; HORSES3D: hexes only"},
-    FormatInfo{Format::vtu, "vtu", ".vtu", "VTK unstructured grid", false, true, 4, true, true,
-               "groups and results, for viewing", "ParaView, PyVista"},
+    FormatInfo{Format::vtu, "vtu", ".vtu", "VTK unstructured grid", true, true, 4, true, true,
+               "groups and results when written, surfaces and volumes by number when read",
+               "ParaView, PyVista"},
 };
 
 std::string lower_extension(const std::string& path) {

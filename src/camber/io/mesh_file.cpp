@@ -17,6 +17,7 @@
 #include <camber/io/ugrid/ugrid_layout.hpp>
 #include <camber/io/ugrid/ugrid_reader.hpp>
 #include <camber/io/ugrid/ugrid_writer.hpp>
+#include <camber/io/vtu/vtu_reader.hpp>
 #include <camber/io/vtu/vtu_writer.hpp>
 #include <camber/mesh/elevate_data.hpp>
 
@@ -54,6 +55,7 @@ MeshData read_as(Format format, const std::string& path) {
     case Format::ugrid:
       return read_ugrid(path);
     case Format::vtu:
+      return read_vtu(path);
     case Format::mfem:
     case Format::nektar:
     case Format::hopr:
