@@ -1,5 +1,6 @@
 #include <camber/base/error.hpp>
 #include <camber/io/detail/hdf5_mutex.hpp>
+#include <camber/io/detail/output_file.hpp>
 #include <camber/io/hopr/hopr_file.hpp>
 
 #include <hdf5.h>
@@ -22,12 +23,6 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   [[nodiscard]] hid_t id() const { return id_; }
-  /// @return false if what was kept back could not be written
-  [[nodiscard]] bool close() {
-    const hid_t id = id_;
-    id_ = -1;
-    return close_(id) >= 0;
-  }
 
  private:
   hid_t id_;
@@ -69,14 +64,17 @@ void for_each_array(A& arrays, const Visit& visit) {
 
 class Writer {
  public:
+  /// The file is made in memory: HDF5 does not recover from a disk that refuses.
   Writer(const Arrays& arrays, const std::string& path, const std::string& display)
       : arrays_(arrays),
         display_(display),
-        file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose) {
+        access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
+        file_(create(path), H5Fclose) {
     require(file_.id() >= 0);
   }
 
-  void run() {
+  /// The bytes of the file.
+  std::string run() {
     attribute("Version", 1.0);
     attribute("Ngeo", static_cast<std::int32_t>(arrays_.order));
     attribute("nElems", static_cast<std::int32_t>(arrays_.elements()));
@@ -92,14 +90,24 @@ class Writer {
     const std::vector<double> weights(arrays_.elements(), 1.0);
     write("ElemWeight", std::span(weights), 0);
     write_names();
-    require(file_.close());
+    require(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0);
+    const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
+    require(size > 0);
+    std::string image(static_cast<std::size_t>(size), '\0');
+    require(H5Fget_file_image(file_.id(), image.data(), image.size()) == size);
+    return image;
   }
 
  private:
+  hid_t create(const std::string& path) const {
+    constexpr std::size_t k_step = std::size_t{1} << 20;  // bytes that the image grows by
+    H5Pset_fapl_core(access_.id(), k_step, false);
+    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_.id());
+  }
+
   void require(bool is_good) const {
     if (is_good) return;
-    throw FileError("cannot be written by HDF5", display_,
-                    "see whether the disk is full and the folder may be written to");
+    throw FileError("cannot be made by HDF5", display_, "the mesh may not fit into memory");
   }
 
   template <class T>
@@ -162,7 +170,7 @@ class Writer {
 
   const Arrays& arrays_;
   const std::string& display_;
-  Handle file_;
+  Handle access_, file_;
 };
 
 template <class T>
@@ -185,9 +193,14 @@ bool is_same(hid_t file, const char* name, const std::vector<T>& values) {
 NameRules hopr_name_rules() { return {.longest = hopr::k_name_length}; }
 
 void write_hopr(const hopr::Arrays& arrays, const std::string& path, const std::string& display) {
-  const std::lock_guard lock(hdf5_mutex());
-  const hopr::Quiet quiet;
-  hopr::Writer(arrays, path, display).run();
+  const std::string image = [&] {
+    const std::lock_guard lock(hdf5_mutex());
+    const hopr::Quiet quiet;
+    return hopr::Writer(arrays, path, display).run();
+  }();
+  OutputFile out(path, display);
+  out.append(image);
+  out.finish();
 }
 
 void check_hopr(const hopr::Arrays& arrays, const std::string& path, const std::string& display) {

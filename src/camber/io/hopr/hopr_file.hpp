@@ -12,8 +12,8 @@ namespace camber::io {
 /// Writes the arrays and the attributes Version, Ngeo, nElems, nSides, nNodes, nUniqueSides,
 /// nUniqueNodes, nBCs and FEMconnect ("OFF") into `path`. The same arrays give the same bytes.
 /// @param display  name used in errors (the user's file, when `path` is a temporary)
-/// @throws FileError if HDF5 cannot write
-/// Threads: holds hdf5_mutex().
+/// @throws FileError if the disk refuses
+/// Cost: the file is made in memory first. Threads: holds hdf5_mutex().
 void write_hopr(const hopr::Arrays& arrays, const std::string& path, const std::string& display);
 
 /// Reads the arrays back and compares every number. @throws FileError if one differs
