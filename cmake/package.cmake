@@ -18,7 +18,7 @@ endif()
 # What find_package(Camber) asks for; the program and the Python package do without.
 string(CONCAT CPACK_DEBIAN_PACKAGE_RECOMMENDS
   "g++, cmake, libeigen3-dev, libtbb-dev, libfmt-dev, libspdlog-dev, nlohmann-json3-dev, "
-  "libnanoflann-dev, libocct-foundation-dev, libocct-modeling-data-dev, "
+  "libnanoflann-dev, libpugixml-dev, libcgns-dev, libhdf5-dev, libocct-foundation-dev, libocct-modeling-data-dev, "
   "libocct-modeling-algorithms-dev, libocct-data-exchange-dev, libocct-visualization-dev, "
   "libocct-ocaf-dev")
 include(CPack)

@@ -51,6 +51,8 @@ int run(const ConvertFlags& flags) {
   const std::map<int, std::size_t> before = cells_by_order(mesh);
   line.show("convert", 0.4);
   if (flags.order > 0) mesh = at_order(mesh, flags.order);
+  const int raised = io::raised_order(mesh, flags.output, flags.format.writing());
+  if (raised > 0) mesh = at_order(mesh, raised);
   const std::map<int, std::size_t> after = cells_by_order(mesh);
   stop_if_interrupted();
   line.show("write", 0.7);
@@ -61,8 +63,9 @@ int run(const ConvertFlags& flags) {
   });
   line.clear();
   if (!flags.common.is_quiet) {
-    print(fmt::format("{}: {}\n{}: {}, {} nodes\n", flags.input, text(before), flags.output,
-                      text(after), mesh.points.size()));
+    print(fmt::format("{}: {}\n{}: {}, {} nodes{}\n", flags.input, text(before), flags.output,
+                      text(after), mesh.points.size(),
+                      raised > 0 ? " (this format holds one order: all raised exactly)" : ""));
   }
   if (!flags.common.json.empty()) {
     nlohmann::ordered_json json;

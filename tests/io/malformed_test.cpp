@@ -321,7 +321,7 @@ TEST(ReadMesh, NamesFilesThatAreNoMesh) {
   EXPECT_NE(error_of_reading(scratch("pipe.msh")).find("a device or a pipe"), std::string::npos);
   EXPECT_NE(error_of_reading(scratch("mesh.stl")).find("'.stl'"), std::string::npos);
   EXPECT_NE(error_of_reading(scratch("mesh")).find("no extension"), std::string::npos);
-  EXPECT_NE(error_of_reading(scratch("mesh.vtu")).find("only be written"), std::string::npos);
+  EXPECT_NE(error_of_reading(scratch("mesh.xml")).find("only be written"), std::string::npos);
 }
 
 }  // namespace

@@ -130,6 +130,22 @@ TEST(Ugrid, ACurvedMeshIsRefusedWithAdvice) {
   }
 }
 
+TEST(Ugrid, NamesGoThroughTheSameSafeWriteAsTheMesh) {
+  const std::string names = scratch("real.mapbc");
+  spill(names, "edited by hand");
+  std::filesystem::create_symlink(names, scratch("m.mapbc"));
+
+  EXPECT_THROW(write_mesh(surfaces_and_volumes(2), scratch("m.lb8.ugrid")), FileError);
+  EXPECT_EQ(slurp(names), "edited by hand");
+  write_mesh(surfaces_and_volumes(1), scratch("m.lb8.ugrid"));
+
+  // Replaced in one step: a link stays a link, and no temporary is left.
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch("m.mapbc")));
+  EXPECT_EQ(slurp(names), "2\n1 5000 all_tris\n2 5000 all_quads\n");
+  const std::filesystem::directory_iterator files(std::filesystem::path(names).parent_path());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 3);
+}
+
 TEST(Ugrid, TheApexOfAPyramidIsItsThirdNode) {
   const std::string text =
       "5 0 1 0 1 0 0\n0 0 0\n1 0 0\n0 0 1\n1 1 0\n0 1 0\n1 2 4 5\n7\n1 5 3 2 4\n";

@@ -136,14 +136,14 @@ TEST(VtuWriter, WritesTheSameBytesAgain) {
 }
 
 TEST(VtuWriter, NoticesAChangeOnTheDisk) {
-  const VtuSummary summary = write_vtu(zoo(), scratch("zoo.vtu"), {}, "zoo.vtu");
-  EXPECT_NO_THROW(check_vtu(scratch("zoo.vtu"), summary, "zoo.vtu"));
+  const FileSummary summary = write_vtu(zoo(), scratch("zoo.vtu"), {}, "zoo.vtu");
+  EXPECT_NO_THROW(check_file(scratch("zoo.vtu"), summary, "zoo.vtu"));
 
   std::string bytes = slurp(scratch("zoo.vtu"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] + 1);
   spill(scratch("zoo.vtu"), bytes);
 
-  EXPECT_THROW(check_vtu(scratch("zoo.vtu"), summary, "zoo.vtu"), FileError);
+  EXPECT_THROW(check_file(scratch("zoo.vtu"), summary, "zoo.vtu"), FileError);
 }
 
 }  // namespace

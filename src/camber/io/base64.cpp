@@ -40,6 +40,28 @@ std::optional<std::vector<std::int32_t>> decode_base64(std::string_view text) {
   return values;
 }
 
+std::optional<std::string> decode_base64_bytes(std::string_view text) {
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int digits = 0, padding = 0;  // of the current four
+  for (const char c : text) {
+    if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
+    const std::size_t value = c == '=' ? 0 : k_digits.find(c);
+    if (value == std::string_view::npos || (c != '=' && padding > 0)) return {};
+    bits = (bits << 6) | static_cast<std::uint32_t>(value);
+    padding += c == '=' ? 1 : 0;
+    if (++digits < 4) continue;
+    if (padding > 2) return {};
+    for (int k = 0; k < 3 - padding; ++k) {
+      bytes += static_cast<char>((bits >> (16 - 8 * k)) & 0xffu);
+    }
+    bits = 0;
+    digits = padding = 0;
+  }
+  if (digits != 0) return {};
+  return bytes;
+}
+
 std::string encode_base64(std::string_view bytes) {
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);

@@ -23,8 +23,16 @@ constexpr std::array k_formats{
                "SU2, SU2-DG"},
     FormatInfo{Format::ugrid, "ugrid", ".ugrid", "UGRID (AFLR3), ASCII, b8, lb8, r8, lr8", true,
                true, 1, false, true, "patches by name (.mapbc)", "FUN3D, Kestrel and others"},
-    FormatInfo{Format::vtu, "vtu", ".vtu", "VTK unstructured grid", false, true, 4, true, true,
-               "groups and results, for viewing", "ParaView, PyVista"},
+    FormatInfo{Format::mfem, "mfem", ".mesh", "MFEM 1.0", false, true, 4, false, false,
+               "volumes and patches by number, names as comments",
+               "MFEM, GLVis; pyramids above order 1: MFEM 4.8 or later"},
+    FormatInfo{Format::nektar, "nektar", ".xml", "Nektar++ geometry (XML, text)", false, true, 4,
+               false, false, "volumes and patches by name; no nodes inside of cells", "Nektar++"},
+    FormatInfo{Format::hopr, "hopr", ".h5", "HOPR mesh (HDF5)", false, true, 4, false, false,
+               "patches by name, volumes by number", "FLEXI, PICLas; HORSES3D: hexes only"},
+    FormatInfo{Format::vtu, "vtu", ".vtu", "VTK unstructured grid", true, true, 4, true, true,
+               "groups and results when written, surfaces and volumes by number when read",
+               "ParaView, PyVista"},
 };
 
 std::string lower_extension(const std::string& path) {

@@ -7,7 +7,7 @@
 
 namespace camber::io {
 
-enum class Format { automatic, gmsh, vtu, cgns, su2, ugrid };
+enum class Format { automatic, gmsh, vtu, cgns, su2, ugrid, mfem, nektar, hopr };
 
 struct FormatInfo {
   Format format;

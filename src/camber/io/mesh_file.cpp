@@ -1,4 +1,5 @@
 #include <camber/base/error.hpp>
+#include <camber/base/log.hpp>
 #include <camber/io/cgns/cgns_reader.hpp>
 #include <camber/io/cgns/cgns_writer.hpp>
 #include <camber/io/detail/input_file.hpp>
@@ -7,16 +8,24 @@
 #include <camber/io/detail/temporary_file.hpp>
 #include <camber/io/gmsh/gmsh_reader.hpp>
 #include <camber/io/gmsh/gmsh_writer.hpp>
+#include <camber/io/hopr/hopr_file.hpp>
 #include <camber/io/mesh_file.hpp>
+#include <camber/io/mfem/mfem_writer.hpp>
+#include <camber/io/nektar/nektar_writer.hpp>
 #include <camber/io/su2/su2_reader.hpp>
 #include <camber/io/su2/su2_writer.hpp>
 #include <camber/io/ugrid/ugrid_layout.hpp>
 #include <camber/io/ugrid/ugrid_reader.hpp>
 #include <camber/io/ugrid/ugrid_writer.hpp>
+#include <camber/io/vtu/vtu_reader.hpp>
 #include <camber/io/vtu/vtu_writer.hpp>
+#include <camber/mesh/elevate_data.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
+
+#include <fmt/format.h>
 
 namespace camber::io {
 namespace {
@@ -46,10 +55,15 @@ MeshData read_as(Format format, const std::string& path) {
     case Format::ugrid:
       return read_ugrid(path);
     case Format::vtu:
+      return read_vtu(path);
+    case Format::mfem:
+    case Format::nektar:
+    case Format::hopr:
     case Format::automatic:
       break;
   }
-  throw FileError("VTK files can only be written", path, "read the .msh file of the mesh");
+  throw FileError(std::string(format_info(format).title) + " files can only be written", path,
+                  "read the .msh file of the mesh");
 }
 
 /// Errors of the reader as errors of the writer.
@@ -78,14 +92,41 @@ void require_order(const MeshData& mesh, const FormatInfo& info, const std::stri
 }
 
 NameRules name_rules(Format format) {
+  if (format == Format::mfem) return mfem_name_rules();
+  if (format == Format::nektar) return nektar_name_rules();
+  if (format == Format::hopr) return hopr_name_rules();
   if (format == Format::cgns) return cgns_name_rules();
   return format == Format::su2 ? su2_name_rules() : ugrid_name_rules();
+}
+
+/// Formats that cannot be read back: the bytes on the disk must be those that were meant.
+template <class Write>
+void write_only(const std::string& path, const Write& write) {
+  FileSummary summary;
+  write_atomically(
+      path, [&](const std::string& temporary) { summary = write(temporary); },
+      [&](const std::string& temporary) { check_file(temporary, summary, path); });
 }
 
 /// Formats that know entities by name only.
 void write_named(const MeshData& mesh, const std::string& path, Format format,
                  const WriteOptions& options, const std::function<void(const MeshData&)>& verify) {
   const NamedMesh named = by_names(mesh, name_rules(format));
+  if (format == Format::mfem) {
+    write_only(path, [&](const std::string& to) { return write_mfem(named, to, path); });
+    return;
+  }
+  if (format == Format::nektar) {
+    write_only(path, [&](const std::string& to) { return write_nektar(named, to, path); });
+    return;
+  }
+  if (format == Format::hopr) {
+    const hopr::Arrays arrays = hopr::make_arrays(named, path);
+    write_atomically(
+        path, [&](const std::string& temporary) { write_hopr(arrays, temporary, path); },
+        [&](const std::string& temporary) { check_hopr(arrays, temporary, path); });
+    return;
+  }
   write_atomically(
       path,
       [&](const std::string& temporary) {
@@ -130,6 +171,17 @@ void check_writable(const std::string& path, const WriteOptions& options) {
   static_cast<void>(writable_target(path));
 }
 
+int raised_order(const MeshData& mesh, const std::string& path, const WriteOptions& options) {
+  if (format_info(format_of(path, options.format)).mixes_orders) return 0;
+  int lowest = k_max_order, highest = 0;
+  for (const ElementBlock& block : mesh.blocks) {
+    if (dimension(block.shape) < 2 || block.nodes.empty()) continue;
+    lowest = std::min(lowest, block.order);
+    highest = std::max(highest, block.order);
+  }
+  return lowest < highest ? highest : 0;
+}
+
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string&)>& produce,
                       const std::function<void(const std::string&)>& verify) {
@@ -143,20 +195,19 @@ void write_atomically(const std::string& path,
 void write_mesh(const MeshData& mesh, const std::string& path, const WriteOptions& options,
                 const std::function<void(const MeshData&)>& verify) {
   check_writable(path, options);
-  if (format_of(path, options.format) == Format::vtu) {
-    VtuSummary summary;
-    write_atomically(
-        path,
-        [&](const std::string& temporary) {
-          summary = write_vtu(mesh, temporary, {.binary = options.binary}, path);
-        },
-        [&](const std::string& temporary) { check_vtu(temporary, summary, path); });
+  const Format format = format_of(path, options.format);
+  if (format == Format::vtu) {
+    write_only(path, [&](const std::string& to) {
+      return write_vtu(mesh, to, {.binary = options.binary}, path);
+    });
     return;
   }
-  const Format format = format_of(path, options.format);
   if (format != Format::gmsh) {
     require_order(mesh, format_info(format), path);
-    write_named(mesh, path, format, options, verify);
+    const int order = raised_order(mesh, path, options);
+    if (order > 0)
+      log(LogLevel::info, fmt::format("{}: all elements raised to order {}", path, order));
+    write_named(order > 0 ? at_order(mesh, order) : mesh, path, format, options, verify);
     return;
   }
   const GmshWriteOptions gmsh{.binary = options.binary, .version = options.gmsh_version};

@@ -26,14 +26,20 @@ struct WriteOptions {
 /// not writable), so that nobody waits for a run whose result cannot be written.
 void check_writable(const std::string& path, const WriteOptions& options = {});
 
+/// The order to which write_mesh raises all elements because the format holds one order only; 0
+/// where every element keeps its own (also if all have one order already).
+[[nodiscard]] int raised_order(const MeshData& mesh, const std::string& path,
+                               const WriteOptions& options = {});
+
 /// Writes to a temporary file beside `path`, flushes it to disk, reads it back where a reader
 /// exists, calls verify(what was read), then renames. On any failure the temporary is removed, the
 /// old file is untouched and a FileError is thrown; what verify throws passes through. A kill may
 /// leave the temporary ".NAME.XXXXXX.tmp" behind, never a damaged `path`.
 /// Points may come back sorted by entity; elements keep their order (see gmsh_writer.hpp). Formats
 /// that know patches by name only join entities of one name; verify gets the source mesh with the
-/// nodes as read back. A .vtu file is compared byte by byte with what was meant, and verify is not
-/// called.
+/// nodes as read back. Formats without a reader (.vtu, .mesh, .xml, .h5) are compared with what
+/// was meant, and verify is not called. Where a format holds one order, elements of lower order are
+/// raised exactly (see raised_order), which is logged.
 void write_mesh(const MeshData& mesh, const std::string& path, const WriteOptions& options = {},
                 const std::function<void(const MeshData&)>& verify = {});
 

@@ -1,5 +1,6 @@
 #include <camber/base/error.hpp>
 #include <camber/io/cgns/detail/cgns_types.hpp>
+#include <camber/io/detail/hdf5_mutex.hpp>
 
 #include <array>
 #include <stdexcept>
@@ -62,10 +63,7 @@ CGNS_ENUMT(ElementType_t) cgns_type(Shape shape, int order) {
   throw std::invalid_argument("CGNS has no such element");
 }
 
-std::mutex& library_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
+std::mutex& library_mutex() { return hdf5_mutex(); }
 
 File::File(const std::string& path, int mode, std::string display) : display_(std::move(display)) {
   require(cg_open(path.c_str(), mode, &number_),

@@ -48,11 +48,12 @@ class Patches {
       if (r.first <= element && element <= r.last) best = std::min(best, r.condition);
     }
     if (best == conditions_.size()) {
-      for (const auto& [c, set] : vertices_) {
+      for (const auto& condition : vertices_) {
+        const auto& set = condition.second;  // by name: clang 14 captures no structured bindings
         const bool has_all = std::all_of(nodes.begin(), nodes.end(), [&](Index n) {
           return std::binary_search(set.begin(), set.end(), static_cast<cgsize_t>(n - first_ + 1));
         });
-        if (has_all) return &conditions_[c];
+        if (has_all) return &conditions_[condition.first];
       }
       return nullptr;
     }

@@ -49,8 +49,8 @@ struct NamedMesh {
 
 struct NameRules {
   std::size_t longest = 255;
-  std::string_view forbidden;  // these become '_', as do control characters
-  bool keeps_volumes = true;   // false: all volume elements belong to one "volume"
+  std::string_view forbidden = {};  // these become '_', as do control characters
+  bool keeps_volumes = true;        // false: all volume elements belong to one "volume"
 };
 
 /// Joins entities of the same name; entities without a name are "surface 7" and the like. Points

@@ -1,7 +1,4 @@
-#include <camber/base/error.hpp>
 #include <camber/io/base64.hpp>
-#include <camber/io/detail/hash.hpp>
-#include <camber/io/detail/input_file.hpp>
 #include <camber/io/detail/mesh_check.hpp>
 #include <camber/io/detail/output_file.hpp>
 #include <camber/io/detail/xml_text.hpp>
@@ -144,8 +141,8 @@ std::span<const double> flat(const Points& points) {
 }  // namespace
 }  // namespace vtu
 
-VtuSummary write_vtu(const MeshData& mesh, const std::string& path, const VtuWriteOptions& options,
-                     const std::string& display) {
+FileSummary write_vtu(const MeshData& mesh, const std::string& path, const VtuWriteOptions& options,
+                      const std::string& display) {
   check_mesh(mesh, display);
   const vtu::Cells cells = vtu::make_cells(mesh);
   const vtu::CellData data = vtu::make_cell_data(mesh, cells);
@@ -179,13 +176,6 @@ VtuSummary write_vtu(const MeshData& mesh, const std::string& path, const VtuWri
   out.append("</VTKFile>\n");
   out.finish();
   return {out.size(), out.hash()};
-}
-
-void check_vtu(const std::string& path, const VtuSummary& summary, const std::string& display) {
-  const InputFile file(path);
-  if (file.text().size() != summary.size || fnv1a(file.text()) != summary.hash) {
-    throw FileError("what was written differs from what is on the disk", display, "check the disk");
-  }
 }
 
 }  // namespace camber::io

@@ -1,20 +1,14 @@
 #pragma once
 // VTK unstructured grids (.vtu) with curved cells, for ParaView and PyVista.
+#include <camber/io/file_summary.hpp>
 #include <camber/mesh/mesh_data.hpp>
 
-#include <cstdint>
 #include <string>
 
 namespace camber::io {
 
 struct VtuWriteOptions {
   bool binary = true;  // raw appended data; else text
-};
-
-/// What was written, to be compared with what is on the disk.
-struct VtuSummary {
-  std::uint64_t size = 0;  // bytes
-  std::uint64_t hash = 0;  // FNV-1a
 };
 
 /// Writes the surface and volume elements (see vtu_cells.hpp for the cell types) with cell data
@@ -26,10 +20,7 @@ struct VtuSummary {
 /// @throws FileError if the disk refuses or a coordinate is not finite; std::invalid_argument if
 /// the
 ///         arrays of `mesh` contradict each other
-[[nodiscard]] VtuSummary write_vtu(const MeshData& mesh, const std::string& path,
-                                   const VtuWriteOptions& options, const std::string& display);
-
-/// Reads the file again and compares it with the summary. @throws FileError if it differs
-void check_vtu(const std::string& path, const VtuSummary& summary, const std::string& display);
+[[nodiscard]] FileSummary write_vtu(const MeshData& mesh, const std::string& path,
+                                    const VtuWriteOptions& options, const std::string& display);
 
 }  // namespace camber::io
