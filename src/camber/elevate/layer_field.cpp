@@ -12,9 +12,21 @@ namespace {
 
 std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
-/// A still patch damps the normal displacement of points nearer to it than this many wall
+/// A still plane damps the normal displacement of points nearer to it than this many wall
 /// distances.
-constexpr double k_damping_range = 2.0;
+constexpr double k_plane_range = 2.0;
+/// A still patch that is not planar damps all displacement of points nearer than this many wall
+/// distances z, by its distance d over d + k_balance z: with that many z between, no kink of the
+/// patch is felt, and nothing is lost at the wall. Both found on bench/ladder's inner and capped
+/// bodies, where a short sharp range tangles hexahedra of order 4 under ragged tops.
+constexpr double k_patch_range = 8.0, k_balance = 0.75;
+
+/// Share of the displacement that a still patch of that kind takes away, 0 at its range.
+double damping_of(PatchKind kind, double distance, double wall_distance) {
+  if (kind == PatchKind::plane) return decay(distance / (k_plane_range * wall_distance));
+  const double reached = distance / (distance + k_balance * wall_distance);
+  return decay(reached * (k_patch_range + k_balance) / k_patch_range);
+}
 
 /// Multilinear weights of the corners (corner order) at xi.
 void vertex_weights(Shape shape, const Vec3& xi, std::span<double> weight) {
@@ -123,9 +135,9 @@ LayerField::Foot LayerField::foot_of(std::span<const Index> vertices,
 Vec3 LayerField::damped_by_still_patches(const Vec3& x, double wall_distance, const Vec3& u) const {
   if (still_tree_.is_empty() || wall_distance <= 0.0) return u;
   FaceHit hit;
-  if (!still_tree_.nearest(x, k_damping_range * wall_distance, hit)) return u;
-  const double damping = decay(hit.distance / (k_damping_range * wall_distance));
+  if (!still_tree_.nearest(x, k_patch_range * wall_distance, hit)) return u;
   const Patch& patch = *association_.patch_of(still_faces_[at(hit.item)]);
+  const double damping = damping_of(patch.kind, hit.distance, wall_distance);
   if (patch.kind == PatchKind::plane) return u - damping * u.dot(patch.normal) * patch.normal;
   return (1.0 - damping) * u;
 }
