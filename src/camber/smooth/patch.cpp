@@ -42,12 +42,21 @@ std::vector<std::pair<std::size_t, Vec3>> failing_cells(const CurvedMesh& curved
   return failing;
 }
 
+/// One evaluation of the cells, in evaluations of a cell of order 2: higher orders have more
+/// samples and more nodes, and what cannot be mended must not cost minutes.
+std::size_t work_of(const CurvedMesh& curved, std::span<const Index> cells) {
+  std::size_t work = 0;
+  for (Index c : cells) work += std::size_t{1} << std::max(curved.cell_order(c) - 2, 0);
+  return work;
+}
+
 /// Optimises from the nodes as they are; true if all cells came out certified, else the nodes are
 /// put back.
 /// @param allowance  evaluations of one cell that may still be spent; reduced by those made
 bool repair(CurvedMesh& curved, detail::CellEnergy& patch, const detail::GroupSolver& scale,
             const UntangleOptions& options, std::size_t& allowance) {
   const VecX start = patch.positions(curved);
+  const std::size_t work = work_of(curved, patch.cells());
   VecX x = start, unused;
   const auto least_ratio = [&](const VecX& y) {
     double smallest = 0.0;
@@ -67,7 +76,7 @@ bool repair(CurvedMesh& curved, detail::CellEnergy& patch, const detail::GroupSo
                                      : std::max(k_least_delta, 0.3 * std::abs(least)) *
                                            std::pow(k_delta_shrink, round);
     const auto energy = [&](const VecX& y, VecX& g) {
-      allowance -= std::min(allowance, patch.cells().size());
+      allowance -= std::min(allowance, work);
       return patch.evaluate(detail::EnergyKind::shape, y, delta, g);
     };
     minimise_lbfgs(energy, x, scale, lbfgs, [&](const VecX&) { return allowance == 0; });

@@ -23,7 +23,8 @@ struct UntangleOptions {
   int max_rounds = 12;  // of regularisation
   int iterations_per_round = 40;
   std::size_t max_cells = 4000;  // a larger patch is left alone
-  // Work limits, counted in evaluations of one cell: for one group, and for all groups of a call.
+  // Work limits, counted in evaluations of one cell of order 2 (a cell of order 3 counts twice, of
+  // order 4 four times): for one group, and for all groups of a call.
   std::size_t evaluations_per_group = 400000, evaluations = 1000000;
 };
 
