@@ -1,7 +1,9 @@
 // camber check: certificates, gaps, quality and surface error of any mesh.
 #include <camber/associate/cad_scale.hpp>
+#include <camber/base/error.hpp>
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/check.hpp>
+#include <camber/pipeline/geometry_source.hpp>
 
 #include <chrono>
 #include <memory>
@@ -32,7 +34,16 @@ int run(const CheckFlags& flags) {
   std::unique_ptr<GeometryModel> geometry;
   double scale = 1.0;
   if (!flags.geometry.empty()) {
-    geometry = read_cad(only_geometry(flags.geometry));
+    const std::string& source = only_geometry(flags.geometry);
+    if (is_geometry_without_cad(source)) {
+      throw OptionError("check measures patches by the CAD faces that their tags name, and '" +
+                            source + "' has no such faces",
+                        "--geometry",
+                        "give a CAD file, or leave it out and look at the deviation with "
+                        "camber report -g " +
+                            source);
+    }
+    geometry = read_cad(source);
     scale = fit_cad_scale(mesh, *geometry, scale_of_unit(flags.unit));
   }
   stop_if_interrupted();

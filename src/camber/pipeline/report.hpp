@@ -99,7 +99,7 @@ struct Report {
     std::size_t nodes = 0;
   } output;
   struct {  // how the mesh was linked to the CAD; only the first two and the last for tags
-    std::string method, reason;         // "tags", "shape" or "file"; why not by tags
+    std::string method, reason;         // "tags", "shape", "file", ..; why not by tags
     std::size_t faces = 0, on_cad = 0;  // boundary faces; of these on CAD faces
     std::size_t straddling = 0;         // across CAD edges: on a group of several faces
     std::size_t off_cad = 0;            // nodes on the CAD, the face not: left straight

@@ -132,6 +132,12 @@ void add_link(const Report& report, std::string& out) {
   if (link.method == "mesh") {
     out += fmt::format("\nGeometry: made from the mesh, there is no CAD\n  {}\n", link.reason);
   }
+  if (link.method == "place") {
+    out += fmt::format(
+        "\nGeometry: not a CAD file, linked by place\n  {} of {} surface elements lie "
+        "on it\n",
+        link.on_cad, link.faces);
+  }
   if (link.method != "shape") return;
   bool is_any = false;
   out += "\nLink to the CAD: found by shape\n";
