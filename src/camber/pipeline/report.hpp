@@ -151,6 +151,7 @@ struct Report {
       stages_s;  // read, associate, elevate, place, propagate, ...
   double total_s = 0.0;
   std::size_t peak_bytes = 0;
+  std::size_t estimated_bytes = 0;  // of the peak, before the run; 0: none was made
   int threads = 0, ranks = 1;
   std::vector<std::string> warnings;
 };
