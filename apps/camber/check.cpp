@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "console.hpp"
+#include "isolation.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 struct CheckFlags {
   CommonFlags common;
   FormatFlags format;
+  IsolationFlags isolation;
   CheckOptions options;
   std::string mesh, unit = "auto";
   std::vector<std::string> geometry;
@@ -29,6 +31,7 @@ int run(const CheckFlags& flags) {
   ProgressLine line(flags.common.shows_progress());
   const auto start = std::chrono::steady_clock::now();
   line.show("read", 0.0);
+  try_inputs(flags.isolation, flags.mesh, flags.format.reading(), flags.geometry);
   const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   stop_if_interrupted();
   std::unique_ptr<GeometryModel> geometry;
@@ -83,6 +86,7 @@ Verb add_check(CLI::App& app) {
       ->capture_default_str();
   verb->add_flag("--strict", flags->options.strict, "faces over the deviation give exit code 3");
   add_unit_flag(*verb, flags->unit);
+  add_isolation_flags(*verb, flags->isolation);
   add_from_flag(*verb, flags->format);
   add_common_flags(*verb, flags->common);
   return {verb, &flags->common, [flags] { return run(*flags); }};

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include "console.hpp"
+#include "isolation.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -30,6 +31,7 @@ namespace {
 struct CurveFlags {
   CommonFlags common;
   FormatFlags format;
+  IsolationFlags isolation;
   CurveOptions options;
   std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
                     smoothing = "auto";
@@ -204,6 +206,7 @@ int run(const CurveFlags& flags) {
 
   ProgressLine line(flags.common.shows_progress());
   line.show("read", 0.0);
+  try_inputs(flags.isolation, flags.mesh, flags.format.reading(), flags.geometry);
   const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   stop_if_interrupted();
   const std::size_t expected_bytes = foresee_memory(mesh, flags);
@@ -374,6 +377,7 @@ Verb add_curve(CLI::App& app) {
                  "go on even if more memory is expected to be needed than is available; default: "
                  "stop before the work, exit code 2");
   verb->add_flag("--strict", flags->options.strict, "faces over the deviation give exit code 3");
+  add_isolation_flags(*verb, flags->isolation);
   add_from_flag(*verb, flags->format);
   add_to_flags(*verb, flags->format);
   add_common_flags(*verb, flags->common);

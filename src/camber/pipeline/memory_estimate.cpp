@@ -2,6 +2,7 @@
 #include <camber/pipeline/memory_estimate.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -36,17 +37,17 @@ double share(Shape shape) {
 }  // namespace
 
 std::size_t estimated_memory(const MeshData& mesh, const MemoryQuestion& question) {
-  const double highest = question.max_order;
-  double order = highest <= 2.0 || question.uniform ? highest : 0.5 * (2.0 + highest);
-  order = std::max(order, static_cast<double>(question.min_order));
+  const double highest = std::pow(question.max_order, 3), lowest = std::pow(question.min_order, 3);
+  constexpr double k_quadratic = 8.0;
+  const bool is_known = highest <= k_quadratic || question.uniform;
+  const double nodes = std::max(is_known ? highest : std::sqrt(k_quadratic * highest), lowest);
   double cells = 0.0, hexes = 0.0;
   for (const ElementBlock& block : mesh.blocks) {
     if (dimension(block.shape) != 3) continue;
     cells += static_cast<double>(block.size());
     hexes += share(block.shape) * static_cast<double>(block.size());
   }
-  return static_cast<std::size_t>(k_program + k_per_cell * cells +
-                                  k_per_node * order * order * order * hexes);
+  return static_cast<std::size_t>(k_program + k_per_cell * cells + k_per_node * nodes * hexes);
 }
 
 std::size_t available_memory(const std::string& meminfo) {

@@ -13,13 +13,14 @@ struct MemoryQuestion {
 };
 
 /// Peak memory of reading, curving and writing a linear mesh [bytes]:
-///   47 MB + 750 n_cells + 200 q^3 (n_hex + n_prism / 2 + n_pyramid / 3 + n_tet / 6).
-/// q^3 nodes are those of one more cell in a large hex mesh of order q; the other shapes are shares
-/// of a hex. How many cells will be curved and how far is known only afterwards: q is the mean of 2
-/// and the highest order, at least the lowest; the highest if all are written at it.
-/// Source: measured, runs of the bundled cases and of bench/generate with 17000 to 102000 cells at
-/// orders 2 and 4. Between 0.9 and 2.8 of the peak in these; a mesh of order 4 throughout may take
-/// twice as much as said. Large CAD files are not counted. Never throws.
+///   47 MB + 750 n_cells + 200 m (n_hex + n_prism / 2 + n_pyramid / 3 + n_tet / 6).
+/// m is the number of nodes of one more hex in a large mesh, p^3 at order p; other shapes are
+/// shares of a hex. How many cells will be curved and how far is known only afterwards: above order
+/// 2, m is the geometric mean of 2^3 and p^3 for the highest order p, at least that of the lowest
+/// order; p^3 if all cells are written at p.
+/// Source: measured, the bundled cases and bench/generate with 17000 to 1 million cells at orders 2
+/// to 4: between 0.9 and 2.7 of the peak. A mesh with order 4 throughout may take three times as
+/// much as said. Large CAD files are not counted. Never throws.
 [[nodiscard]] std::size_t estimated_memory(const MeshData& mesh, const MemoryQuestion& question);
 
 /// Memory that programs may take without swapping, "MemAvailable" of Linux [bytes]; 0 if the file
