@@ -1,7 +1,9 @@
 // camber check: certificates, gaps, quality and surface error of any mesh.
 #include <camber/associate/cad_scale.hpp>
+#include <camber/base/error.hpp>
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/check.hpp>
+#include <camber/pipeline/geometry_source.hpp>
 
 #include <chrono>
 #include <memory>
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "console.hpp"
+#include "isolation.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -18,6 +21,7 @@ namespace {
 struct CheckFlags {
   CommonFlags common;
   FormatFlags format;
+  IsolationFlags isolation;
   CheckOptions options;
   std::string mesh, unit = "auto";
   std::vector<std::string> geometry;
@@ -27,12 +31,22 @@ int run(const CheckFlags& flags) {
   ProgressLine line(flags.common.shows_progress());
   const auto start = std::chrono::steady_clock::now();
   line.show("read", 0.0);
+  try_inputs(flags.isolation, flags.mesh, flags.format.reading(), flags.geometry);
   const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   stop_if_interrupted();
   std::unique_ptr<GeometryModel> geometry;
   double scale = 1.0;
   if (!flags.geometry.empty()) {
-    geometry = read_cad(only_geometry(flags.geometry));
+    const std::string& source = only_geometry(flags.geometry);
+    if (is_geometry_without_cad(source)) {
+      throw OptionError("check measures patches by the CAD faces that their tags name, and '" +
+                            source + "' has no such faces",
+                        "--geometry",
+                        "give a CAD file, or leave it out and look at the deviation with "
+                        "camber report -g " +
+                            source);
+    }
+    geometry = read_cad(source);
     scale = fit_cad_scale(mesh, *geometry, scale_of_unit(flags.unit));
   }
   stop_if_interrupted();
@@ -72,6 +86,7 @@ Verb add_check(CLI::App& app) {
       ->capture_default_str();
   verb->add_flag("--strict", flags->options.strict, "faces over the deviation give exit code 3");
   add_unit_flag(*verb, flags->unit);
+  add_isolation_flags(*verb, flags->isolation);
   add_from_flag(*verb, flags->format);
   add_common_flags(*verb, flags->common);
   return {verb, &flags->common, [flags] { return run(*flags); }};

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "console.hpp"
+#include "isolation.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 struct ConvertFlags {
   CommonFlags common;
   FormatFlags format;
+  IsolationFlags isolation;
   std::string input, output;
   int order = 0;
   bool keep = false;
@@ -46,6 +48,7 @@ int run(const ConvertFlags& flags) {
   io::check_writable(flags.output, flags.format.writing());
   ProgressLine line(flags.common.shows_progress());
   line.show("read", 0.0);
+  try_inputs(flags.isolation, flags.input, flags.format.reading(), {});
   MeshData mesh = io::read_mesh(flags.input, flags.format.reading());
   stop_if_interrupted();
   const std::map<int, std::size_t> before = cells_by_order(mesh);
@@ -105,6 +108,7 @@ Verb add_convert(CLI::App& app) {
           ->check(CLI::Range(1, k_max_order))
           ->type_name("ORDER");
   verb->add_flag("--keep", flags->keep, "every element keeps its order (default)")->excludes(order);
+  add_isolation_flags(*verb, flags->isolation);
   add_from_flag(*verb, flags->format);
   add_to_flags(*verb, flags->format);
   add_common_flags(*verb, flags->common);

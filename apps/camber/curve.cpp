@@ -1,10 +1,13 @@
 // camber curve: the main job, from a linear mesh and its CAD to a certified curved mesh in a file.
 #include <camber/base/error.hpp>
+#include <camber/base/log.hpp>
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/page/page.hpp>
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/curve.hpp>
+#include <camber/pipeline/family_link.hpp>
 #include <camber/pipeline/geometry_source.hpp>
+#include <camber/pipeline/memory_estimate.hpp>
 #include <camber/pipeline/own_surface.hpp>
 #include <camber/pipeline/periodic.hpp>
 
@@ -18,6 +21,7 @@
 #include <fmt/format.h>
 
 #include "console.hpp"
+#include "isolation.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -27,11 +31,12 @@ namespace {
 struct CurveFlags {
   CommonFlags common;
   FormatFlags format;
+  IsolationFlags isolation;
   CurveOptions options;
   std::string mesh, unit = "auto", deviation_length = "face", propagation = "layer",
                     smoothing = "auto";
   std::string link = "auto", page;
-  bool is_quality_given = false;
+  bool is_quality_given = false, allow_memory = false;
   double feature_angle = FeatureOptions{}.angle;
   std::vector<std::string> geometry, outputs, patches, periodic;
 };
@@ -133,10 +138,12 @@ FeatureOptions features_of(const CurveFlags& flags) {
 }
 
 /// Writes all outputs, each verified before it replaces anything. @return seconds spent verifying
-double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certified) {
+double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certified,
+                 bool has_cad_tags) {
   double verifying = 0.0;
   io::WriteOptions writing = flags.format.writing();
-  if (!is_without_cad(flags)) writing.geometry = flags.geometry.front();
+  // Tags of surfaces are numbers of CAD faces only if they made the link.
+  if (has_cad_tags) writing.geometry = flags.geometry.front();
   for (const std::string& path : flags.outputs) {
     io::write_mesh(mesh, path, writing, [&](const MeshData& read_back) {
       const Clock::time_point start = Clock::now();
@@ -150,9 +157,45 @@ double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certifie
   return verifying;
 }
 
+/// States the memory that the run will take. @throws MeshError if there is less
+std::size_t foresee_memory(const MeshData& mesh, const CurveFlags& flags) {
+  const OrderOptions& orders = flags.options.orders;
+  const std::size_t estimate =
+      estimated_memory(mesh, {orders.max_order, orders.min_order, flags.options.uniform});
+  const std::size_t available = available_memory();
+  log(LogLevel::info,
+      fmt::format("memory: about {:.0f} MB expected, {:.0f} MB available",
+                  static_cast<double>(estimate) / 1e6, static_cast<double>(available) / 1e6));
+  if (!flags.allow_memory) require_memory(estimate, peak_memory(), available, flags.mesh);
+  return estimate;
+}
+
+/// Rules from the families of a CGNS mesh, unless something else says what links mesh and CAD.
+/// @return what the report says of it, "" if no rule came of it
+std::string take_families(const MeshData& mesh, const GeometryModel& geometry,
+                          const CurveFlags& flags, CurveOptions& options) {
+  const io::Format stated = flags.format.reading().format;
+  const io::Format format =
+      stated == io::Format::automatic ? io::format_by_name(flags.mesh) : stated;
+  if (flags.link != "auto" || options.link_by != LinkBy::automatic || format != io::Format::cgns) {
+    return "";
+  }
+  const std::vector<io::PatchGeometry> families = io::read_cgns_geometry(flags.mesh);
+  if (families.empty()) return "";
+  const FamilyLink link =
+      link_by_families(families, mesh, geometry, flags.geometry.front(), options.association);
+  for (const std::string& reason : link.left_out) {
+    log(LogLevel::info, "family of patch " + reason + "; it is linked by shape");
+  }
+  if (link.patches == 0) return "";
+  return fmt::format(
+      "the families of the mesh name the CAD faces of {} patches{}", link.patches,
+      link.left_out.empty() ? "" : fmt::format("; not taken: {}", fmt::join(link.left_out, "; ")));
+}
+
 int run(const CurveFlags& flags) {
   const Clock::time_point begin = Clock::now();
-  const CurveOptions options = options_of(flags);
+  CurveOptions options = options_of(flags);
   std::vector<std::string> inputs{flags.mesh}, outputs = flags.outputs;
   if (!is_without_cad(flags)) inputs.push_back(only_geometry(flags.geometry));
   if (!flags.page.empty()) outputs.push_back(flags.page);
@@ -163,8 +206,10 @@ int run(const CurveFlags& flags) {
 
   ProgressLine line(flags.common.shows_progress());
   line.show("read", 0.0);
+  try_inputs(flags.isolation, flags.mesh, flags.format.reading(), flags.geometry);
   const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   stop_if_interrupted();
+  const std::size_t expected_bytes = foresee_memory(mesh, flags);
   std::unique_ptr<GeometryModel> geometry;
   if (!is_without_cad(flags)) {
     const std::string& source = flags.geometry.front();
@@ -172,6 +217,7 @@ int run(const CurveFlags& flags) {
                                                : read_cad(source);
   }
   stop_if_interrupted();
+  const std::string families = geometry ? take_families(mesh, *geometry, flags, options) : "";
   const double reading = seconds_since(begin);
 
   CurveResult result = geometry
@@ -179,6 +225,11 @@ int run(const CurveFlags& flags) {
                            : curve_without_cad(mesh, features_of(flags), options, line.progress());
   Report& report = result.report;
   report.input.mesh = flags.mesh;
+  report.estimated_bytes = expected_bytes;
+  if (!families.empty()) {
+    report.link.method = "families";
+    report.link.reason = families;
+  }
   report.input.geometry = flags.geometry;
   report.options = shown(flags, options);
   report.stages_s.insert(report.stages_s.begin(), {"read", reading});
@@ -188,7 +239,7 @@ int run(const CurveFlags& flags) {
     line.show("write", 1.0);
     const Clock::time_point start = Clock::now();
     const MeshData curved = exported(result, options);
-    const double verifying = write_all(curved, flags, is_certified);
+    const double verifying = write_all(curved, flags, is_certified, report.link.method == "tags");
     report.output.path = fmt::format("{}", fmt::join(flags.outputs, ", "));
     report.output.nodes = curved.points.size();
     report.stages_s.emplace_back("write", seconds_since(start) - verifying);
@@ -295,8 +346,8 @@ Verb add_curve(CLI::App& app) {
   add_unit_flag(*verb, flags->unit);
   verb->add_option("-l,--link", flags->link,
                    "what links mesh and CAD. A MeshLink file (.xml); tags: the surface tags of "
-                   "the mesh; shape: place and shape alone; auto: tags if they fit the CAD, else "
-                   "shape")
+                   "the mesh; shape: place and shape alone; auto: CAD faces that the families "
+                   "of a CGNS mesh name, else tags if they fit the CAD, else shape")
       ->type_name("LINK|auto|tags|shape")
       ->capture_default_str();
   add_patch_flag(*verb, flags->patches);
@@ -322,7 +373,11 @@ Verb add_curve(CLI::App& app) {
                  "default: leave and list them");
   verb->add_flag("--allow-invalid", flags->options.allow_invalid,
                  "write even if an element is not certified; default: write nothing, exit code 3");
+  verb->add_flag("--allow-memory", flags->allow_memory,
+                 "go on even if more memory is expected to be needed than is available; default: "
+                 "stop before the work, exit code 2");
   verb->add_flag("--strict", flags->options.strict, "faces over the deviation give exit code 3");
+  add_isolation_flags(*verb, flags->isolation);
   add_from_flag(*verb, flags->format);
   add_to_flags(*verb, flags->format);
   add_common_flags(*verb, flags->common);

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "console.hpp"
+#include "isolation.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -22,6 +23,7 @@ namespace {
 struct InfoFlags {
   CommonFlags common;
   FormatFlags format;
+  IsolationFlags isolation;
   std::string file, unit = "mm";
   bool lists_formats = false;
 };
@@ -44,9 +46,12 @@ int run(const InfoFlags& flags) {
   }
   ProgressLine line(flags.common.shows_progress());
   line.show("read", 0.0);
+  const bool shows_cad = is_cad(flags.file);
+  if (shows_cad) try_inputs(flags.isolation, "", {}, {flags.file});
+  if (!shows_cad) try_inputs(flags.isolation, flags.file, flags.format.reading(), {});
   const double scale = scale_of_unit(flags.unit);
-  const Info info = is_cad(flags.file) ? cad_info(flags.file, scale)
-                                       : mesh_info(flags.file, flags.format.reading());
+  const Info info =
+      shows_cad ? cad_info(flags.file, scale) : mesh_info(flags.file, flags.format.reading());
   stop_if_interrupted();
   line.clear();
   if (!flags.common.is_quiet) print(info.text);
@@ -90,6 +95,7 @@ Verb add_info(CLI::App& app) {
       ->check(CLI::IsMember({"m", "mm", "in"}))
       ->type_name("UNIT")
       ->capture_default_str();
+  add_isolation_flags(*verb, flags->isolation);
   add_from_flag(*verb, flags->format);
   add_common_flags(*verb, flags->common);
   return {verb, &flags->common, [flags] { return run(*flags); }};

@@ -4,7 +4,10 @@
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/page/page.hpp>
 #include <camber/pipeline/check.hpp>
+#include <camber/pipeline/geometry_source.hpp>
+#include <camber/pipeline/surface_groups.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -84,6 +87,23 @@ void refuse_what_cannot_work(const ReportFlags& flags) {
   for (const std::string& path : outputs) io::check_writable(path, {.format = io::Format::gmsh});
 }
 
+/// A geometry without CAD has no tags for the mesh: its faces are found by place.
+std::vector<GeometryGroup> linked_by_place(const MeshData& mesh, const GeometryModel& geometry,
+                                           const std::string& source, Report& report) {
+  std::vector<GeometryGroup> groups = surface_groups_by_place(mesh, geometry);
+  const auto linked = std::count_if(groups.begin(), groups.end(),
+                                    [](const GeometryGroup& group) { return !group.empty(); });
+  if (linked == 0) {
+    throw GeometryError("no surface element of the mesh has its corners on it", source,
+                        "give the geometry that the mesh was curved onto, and --unit if its unit "
+                        "is not the mesh's");
+  }
+  report.link.method = "place";
+  report.link.faces = groups.size();
+  report.link.on_cad = static_cast<std::size_t>(linked);
+  return groups;
+}
+
 int run(const ReportFlags& flags) {
   const Clock::time_point begin = Clock::now();
   refuse_what_cannot_work(flags);
@@ -96,27 +116,41 @@ int run(const ReportFlags& flags) {
   stop_if_interrupted();
   std::unique_ptr<GeometryModel> geometry;
   double scale = 1.0;
+  bool is_cad = true;
   if (!flags.geometry.empty()) {
-    geometry = read_cad(only_geometry(flags.geometry));
-    scale = fit_cad_scale(mesh, *geometry, scale_of_unit(flags.unit));
+    const std::string& source = only_geometry(flags.geometry);
+    is_cad = !is_geometry_without_cad(source);
+    geometry = is_cad ? read_cad(source) : make_geometry(source);
+    scale = scale_of_unit(flags.unit);
+    if (is_cad) {
+      scale = fit_cad_scale(mesh, *geometry, scale);
+    } else if (scale != 0.0) {
+      geometry->set_scale(scale);
+    } else {
+      scale = 1.0;  // it is in the mesh's unit
+    }
   }
+  const GeometryModel* by_tags = is_cad ? geometry.get() : nullptr;
   const double reading = seconds_since(begin);
   stop_if_interrupted();
   line.show("check", 0.2);
   CellFindings findings;
-  Report report = check(mesh, geometry.get(), flags.options, &findings);
+  Report report = check(mesh, by_tags, flags.options, &findings);
   report.command = "report";
   report.input.geometry = flags.geometry;
   if (geometry) {
     report.options = {{"deviation", fmt::format("{:g}", flags.options.deviation)},
                       {"unit", fmt::format("{} (mesh = {:g} x mm)", flags.unit, scale)}};
   }
+  std::vector<GeometryGroup> groups;
+  if (!is_cad) groups = linked_by_place(mesh, *geometry, flags.geometry.front(), report);
   report.stages_s.insert(report.stages_s.begin(), {"read", reading});
   report.peak_bytes = peak_memory();
   stop_if_interrupted();
   line.show("page", 0.6);
   const Clock::time_point start = Clock::now();
-  PageContent content = page_content(std::move(mesh), std::move(findings), report, geometry.get());
+  PageContent content = page_content(std::move(mesh), std::move(findings), report, by_tags);
+  if (!is_cad) content.surface_groups = std::move(groups);
   if (!flags.report.empty()) content.report = read_report(flags.report);
   const std::string text = page_html(content, geometry.get());
   stop_if_interrupted();
@@ -144,9 +178,10 @@ Verb add_report(CLI::App& app) {
       ->required()
       ->type_name("MESH");
   verb->add_option("-g,--geometry", flags->geometry,
-                   "CAD that its surface tags refer to, for the deviation (.step .iges .brep); "
-                   "default: none")
-      ->type_name("CAD")
+                   "for the deviation: CAD that its surface tags refer to (.step .iges .brep); or, "
+                   "found by place, a finer surface mesh (.stl .msh) or an analytic surface such "
+                   "as sphere:x,y,z,r; default: none")
+      ->type_name("CAD|SURFACE")
       ->expected(1);
   verb->add_option("-o,--page", flags->page, "page to write (.html)")->type_name("PAGE");
   verb->add_option("--png", flags->png, "picture to write; needs Chromium or Chrome")

@@ -10,8 +10,8 @@
 from ._camber import __version__
 from ._errors import Error, FileError, GeometryError, MeshError, OptionError
 from ._mesh import Block, Mesh, block, read
-from ._runs import Geometry, Report, Result, check, curve
+from ._runs import Geometry, Report, Result, check, curve, page
 
 __all__ = [
     "Block", "Error", "FileError", "Geometry", "GeometryError", "Mesh", "MeshError", "OptionError",
-    "Report", "Result", "__version__", "block", "check", "curve", "read"]
+    "Report", "Result", "__version__", "block", "check", "curve", "page", "read"]

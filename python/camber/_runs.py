@@ -148,6 +148,16 @@ class Result:
                 "see report() for where; allow_invalid=True writes all the same")
         native(self.mesh).write(os.fspath(path), ascii, self.is_certified)
 
+    def write_page(self, path: Path) -> None:
+        """Writes one HTML file to look at the result: the curved mesh with orders, bounds, costs
+        and deviations, and the report; see docs/page. Written even if not every cell is certified.
+        Takes turns with other runs on the same Geometry.
+
+        Raises:
+            FileError: the file cannot be written; an old one stays.
+        """
+        _camber.write_run_page(self._run, os.fspath(path))
+
     def __repr__(self) -> str:
         state = "certified" if self.is_certified else "NOT certified"
         return f"<camber.Result: {len(self.orders)} cells, {state}>"
@@ -214,3 +224,22 @@ def check(mesh: Mesh, geometry: Optional[Geometry] = None, *, deviation: float =
     """
     model = None if geometry is None else geometry._model
     return Report(_camber.check(native(mesh), model, deviation, quality, strict, unit))
+
+
+def page(mesh: Mesh, path: Path, geometry: Optional[Geometry] = None, *, deviation: float = 0.01,
+         unit: str = "auto") -> None:
+    """Writes one HTML file to look at any linear or curved mesh, as `camber report` does.
+
+    With a CAD the page shows the deviation of the surface elements whose tags refer to it; with a
+    geometry without CAD (.stl, .msh, "sphere:..") that of the elements whose corners lie on it.
+
+    Args:
+        deviation: a face is off the CAD over this share of its shortest edge.
+        unit: of the mesh: "auto", "m", "mm" or "in".
+
+    Raises:
+        FileError: the file cannot be written; an old one stays.
+        MeshError, GeometryError, OptionError: as check().
+    """
+    model = None if geometry is None else geometry._model
+    _camber.write_mesh_page(native(mesh), os.fspath(path), model, deviation, unit)

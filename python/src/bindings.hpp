@@ -67,6 +67,7 @@ class PythonProgress {
 };
 
 void bind_mesh(py::module_& module);
+void bind_pages(py::module_& module);
 void bind_runs(py::module_& module);
 
 }  // namespace camber::python

@@ -81,4 +81,5 @@ PYBIND11_MODULE(_camber, module) {
   module.attr("__version__") = std::string(camber::version());
   camber::python::bind_mesh(module);
   camber::python::bind_runs(module);
+  camber::python::bind_pages(module);
 }

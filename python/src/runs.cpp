@@ -1,10 +1,11 @@
 // CAD files, curve() and check().
+#include "runs.hpp"
+
 #include <camber/associate/cad_scale.hpp>
 #include <camber/base/error.hpp>
 #include <camber/base/parallel.hpp>
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/check.hpp>
-#include <camber/pipeline/curve.hpp>
 #include <camber/pipeline/geometry_source.hpp>
 #include <camber/pipeline/own_surface.hpp>
 #include <camber/pipeline/text_report.hpp>
@@ -14,22 +15,8 @@
 
 #include <fmt/format.h>
 
-#include "bindings.hpp"
-
 namespace camber::python {
-namespace {
 
-/// A result with the options it was made with, which say how it is exported.
-struct Run {
-  CurveResult result;
-  CurveOptions options;
-
-  [[nodiscard]] bool is_certified() const {
-    return result.report.validity.invalid + result.report.validity.undecided == 0;
-  }
-};
-
-/// Mesh length per CAD length, which is read in millimetres; 0: found.
 double scale_of(const std::string& unit) {
   for (const auto& [known, scale] :
        {std::pair{"auto", 0.0}, {"mm", 1.0}, {"m", 1e-3}, {"in", 1.0 / 25.4}}) {
@@ -37,6 +24,8 @@ double scale_of(const std::string& unit) {
   }
   throw OptionError(fmt::format("'{}' is no known unit", unit), "unit", "give auto, m, mm or in");
 }
+
+namespace {
 
 template <class Value>
 Value choice(const char* option, const std::string& text,
@@ -141,8 +130,8 @@ CurveResult run_curve(const MeshData& mesh, Geometry* geometry, CurveOptions& op
   return curve(mesh, *geometry->model, options, progress);
 }
 
-std::shared_ptr<Run> curve_mesh(const MeshData& mesh, Geometry* geometry, const py::dict& given,
-                                int threads, const py::object& callback) {
+std::shared_ptr<Run> curve_mesh(const MeshData& mesh, const std::shared_ptr<Geometry>& geometry,
+                                const py::dict& given, int threads, const py::object& callback) {
   auto run = std::make_shared<Run>();
   run->options = make_options(given);
   const double feature_angle = given["feature_angle"].cast<double>();
@@ -152,12 +141,14 @@ std::shared_ptr<Run> curve_mesh(const MeshData& mesh, Geometry* geometry, const 
     const py::gil_scoped_release no_gil;
     const ThreadLimit limit(threads);
     try {
-      run->result = run_curve(mesh, geometry, run->options, feature_angle, python.progress());
+      run->result = run_curve(mesh, geometry.get(), run->options, feature_angle, python.progress());
     } catch (const Cancelled&) {
       is_cancelled = true;
     }
   }
   if (is_cancelled) python.rethrow();
+  run->geometry = geometry;
+  run->scale = run->result.association.scale;
   run->result.report.input.mesh = mesh.source;
   run->result.report.input.geometry = {geometry ? geometry->path : "auto"};
   run->result.report.options = shown(given);

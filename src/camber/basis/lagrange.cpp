@@ -156,7 +156,8 @@ void lagrange_gradients(Shape shape, int p, const Vec3& xi, std::span<Vec3> dN) 
   }
   if (shape == Shape::pyramid) return detail::pyramid_gradients(p, xi, dN);
   const Product f = factors(shape, p, xi, 1.0);
-  const auto& [X, Y, Z] = f.along;
+  // By name: clang before 16 captures no structured bindings.
+  const Factor &X = f.along[0], &Y = f.along[1], &Z = f.along[2];
   const int dim = dimension(shape);
   for_each_node(
       shape, p, f,

@@ -238,7 +238,8 @@ std::string json_report(const Report& report) {
   json["periodic"] = periodic(report);
   json["smooth"] = smooth(report);
   json["time"] = time(report);
-  json["memory"] = {{"peak_bytes", report.peak_bytes}};
+  json["memory"] = {{"peak_bytes", report.peak_bytes}, {"estimated_bytes", nullptr}};
+  if (report.estimated_bytes > 0) json["memory"]["estimated_bytes"] = report.estimated_bytes;
   json["threads"] = report.threads;
   json["ranks"] = report.ranks;
   json["warnings"] = report.warnings;

@@ -99,7 +99,7 @@ struct Report {
     std::size_t nodes = 0;
   } output;
   struct {  // how the mesh was linked to the CAD; only the first two and the last for tags
-    std::string method, reason;         // "tags", "shape" or "file"; why not by tags
+    std::string method, reason;         // "tags", "shape", "file", ..; why not by tags
     std::size_t faces = 0, on_cad = 0;  // boundary faces; of these on CAD faces
     std::size_t straddling = 0;         // across CAD edges: on a group of several faces
     std::size_t off_cad = 0;            // nodes on the CAD, the face not: left straight
@@ -151,6 +151,7 @@ struct Report {
       stages_s;  // read, associate, elevate, place, propagate, ...
   double total_s = 0.0;
   std::size_t peak_bytes = 0;
+  std::size_t estimated_bytes = 0;  // of the peak, before the run; 0: none was made
   int threads = 0, ranks = 1;
   std::vector<std::string> warnings;
 };

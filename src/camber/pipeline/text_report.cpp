@@ -132,10 +132,20 @@ void add_link(const Report& report, std::string& out) {
   if (link.method == "mesh") {
     out += fmt::format("\nGeometry: made from the mesh, there is no CAD\n  {}\n", link.reason);
   }
-  if (link.method != "shape") return;
+  if (link.method == "place") {
+    out += fmt::format(
+        "\nGeometry: not a CAD file, linked by place\n  {} of {} surface elements lie "
+        "on it\n",
+        link.on_cad, link.faces);
+  }
+  const bool is_by_families = link.method == "families";
+  if (link.method != "shape" && !is_by_families) return;
   bool is_any = false;
-  out += "\nLink to the CAD: found by shape\n";
-  if (!link.reason.empty()) out += fmt::format("  why not by tags: {}\n", link.reason);
+  out += fmt::format("\nLink to the CAD: found by {}\n",
+                     is_by_families ? "families of the mesh and shape" : "shape");
+  if (!link.reason.empty()) {
+    out += fmt::format("  {}{}\n", is_by_families ? "" : "why not by tags: ", link.reason);
+  }
   out += fmt::format("  {} of {} boundary faces on the CAD, {} of them across CAD edges\n",
                      link.on_cad, link.faces, link.straddling);
   if (link.off_cad > 0) {

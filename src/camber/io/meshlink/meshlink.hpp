@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace camber::io {
@@ -95,6 +96,9 @@ struct MeshLink {
 /// @throws FileError naming path, line and element: no XML, unknown or missing attributes, numbers
 /// that are none, counts that do not fit, references to ids that do not exist, ids given twice.
 [[nodiscard]] MeshLink read_meshlink(const std::string& path);
+
+/// The same for the text of such a file. @param path for messages @throws FileError
+[[nodiscard]] MeshLink parse_meshlink(const std::string& path, std::string_view text);
 
 /// Replaces `path` in one step. Tri3 and Quad4 faces and Edge2 edges as text.
 /// @throws FileError

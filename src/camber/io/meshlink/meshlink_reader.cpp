@@ -33,12 +33,12 @@ struct Ids {
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path), file_(path) {}
+  Reader(const std::string& path, std::string_view text) : path_(path), text_(text) {}
 
   MeshLink run() {
     pugi::xml_document document;
     const pugi::xml_parse_result result =
-        document.load_buffer(file_.text().data(), file_.text().size(), pugi::parse_default);
+        document.load_buffer(text_.data(), text_.size(), pugi::parse_default);
     if (!result) {
       fail(fmt::format("no well-formed XML: {}", result.description()), result.offset);
     }
@@ -58,11 +58,10 @@ class Reader {
 
  private:
   [[noreturn]] void fail(const std::string& what, std::ptrdiff_t offset) const {
-    const std::string_view text = file_.text();
     const std::size_t end =
-        std::min(text.size(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
+        std::min(text_.size(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
     const auto line =
-        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+        1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n');
     throw FileError(what, fmt::format("{}, line {}", path_, line),
                     "the file must be MeshLink XML, version 1");
   }
@@ -324,13 +323,20 @@ class Reader {
   }
 
   std::string path_;
-  InputFile file_;
+  std::string_view text_;
   MeshLink link_;
   Ids attribute_ids_, geometry_ids_, transform_ids_;
 };
 
 }  // namespace
 
-MeshLink read_meshlink(const std::string& path) { return Reader(path).run(); }
+MeshLink read_meshlink(const std::string& path) {
+  const InputFile file(path);
+  return parse_meshlink(path, file.text());
+}
+
+MeshLink parse_meshlink(const std::string& path, std::string_view text) {
+  return Reader(path, text).run();
+}
 
 }  // namespace camber::io

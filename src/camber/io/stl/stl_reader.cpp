@@ -104,7 +104,10 @@ MeshData read_ascii(const std::string& path, std::string_view text) {
 
 MeshData read_stl(const std::string& path) {
   const InputFile file(path);
-  const std::string_view bytes = file.text();
+  return parse_stl(path, file.text());
+}
+
+MeshData parse_stl(const std::string& path, std::string_view bytes) {
   // Binary files may begin with "solid" as well: their length tells.
   if (bytes.size() >= k_head + 4) {
     const std::size_t count = little_endian(bytes.data() + k_head);

@@ -3,6 +3,7 @@
 #include <camber/mesh/mesh_data.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace camber::io {
 
@@ -10,5 +11,8 @@ namespace camber::io {
 /// one point; triangles with two corners in one place are left out, normals are not read.
 /// @throws FileError
 [[nodiscard]] MeshData read_stl(const std::string& path);
+
+/// The same for the bytes of such a file. @param path for messages @throws FileError
+[[nodiscard]] MeshData parse_stl(const std::string& path, std::string_view bytes);
 
 }  // namespace camber::io
