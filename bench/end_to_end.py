@@ -46,7 +46,8 @@ def measure(camber, name, mesh, geometry, arguments, folder):
     for threads in arguments.threads:
         out, report = folder / "out.msh", folder / "report.json"
         cpu, wall = run([camber, "curve", mesh, "-g", geometry, "-o", out, "--json", report,
-                         "--order", str(arguments.order), "--threads", str(threads)])
+                         "--order", str(arguments.order), "--deviation",
+                         str(arguments.deviation), "--threads", str(threads)])
         data = json.loads(report.read_text())
         by_order = {int(q): n for q, n in data["output"]["cells_by_order"].items()}
         cells, curved = sum(by_order.values()), sum(n for q, n in by_order.items() if q > 1)
@@ -71,6 +72,8 @@ def main():
     parser.add_argument("--body", nargs="+", default=list(BODIES), choices=list(BODIES))
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--order", type=int, default=3)
+    parser.add_argument("--deviation", type=float, default=0.01,
+                        help="fine meshes need less, or all cells stay linear")
     parser.add_argument("--thickness", type=float, default=1.0)
     parser.add_argument("--mesh", help="instead of generated ones")
     parser.add_argument("--geometry")

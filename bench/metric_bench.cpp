@@ -28,6 +28,21 @@ void cost_of_element(benchmark::State& state, Shape shape, int p) {
                           static_cast<std::int64_t>(nodes.size() * sizeof(Vec3)));
 }
 
+/// As in the pipeline: many cells of one kind, in the lanes of the processor, one thread.
+void cost_of_cells(benchmark::State& state, Shape shape, int p) {
+  constexpr std::size_t k_elements = 256;
+  const Points one = bent_element(shape, p);
+  Points nodes;
+  for (std::size_t i = 0; i < k_elements; ++i) nodes.insert(nodes.end(), one.begin(), one.end());
+  std::vector<ElementCost> costs(k_elements);
+  for (auto _ : state) {
+    element_costs(shape, p, nodes, costs);
+    benchmark::DoNotOptimize(costs.data());
+  }
+  state.counters["elements/s"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * k_elements, benchmark::Counter::kIsRate);
+}
+
 [[maybe_unused]] const bool k_registered = [] {
   for (Shape shape : {Shape::triangle, Shape::quadrilateral, Shape::tetrahedron, Shape::pyramid,
                       Shape::prism, Shape::hexahedron}) {
@@ -35,6 +50,10 @@ void cost_of_element(benchmark::State& state, Shape shape, int p) {
       const std::string title = "cost/" + std::string(name(shape)) + "/Q" + std::to_string(p);
       benchmark::RegisterBenchmark(
           title.c_str(), [=](benchmark::State& state) { cost_of_element(state, shape, p); });
+      if (dimension(shape) < 3) continue;
+      benchmark::RegisterBenchmark(("cells-" + title).c_str(), [=](benchmark::State& state) {
+        cost_of_cells(state, shape, p);
+      });
     }
   }
   return true;

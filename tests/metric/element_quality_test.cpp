@@ -1,6 +1,9 @@
 #include <camber/basis/lagrange.hpp>
+#include <camber/basis/quadrature.hpp>
+#include <camber/metric/cost.hpp>
 #include <camber/metric/element_quality.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -100,6 +103,56 @@ TEST(ElementCost, WithoutAnIdealIsZero) {
   const Points flat =
       mapped(Shape::hexahedron, 2, [](const Vec3& xi) { return Vec3(xi.x(), xi.y(), 0.0); });
   EXPECT_EQ(element_cost(Shape::hexahedron, 2, flat).minimum, 0.0);
+}
+
+TEST(ElementCosts, AreThoseOfEveryElementAloneToTheBit) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);  // some of them inverted
+  for (Shape shape : {Shape::tetrahedron, Shape::pyramid, Shape::prism, Shape::hexahedron}) {
+    for (int p = 1; p <= 4; ++p) {
+      const std::size_t n = static_cast<std::size_t>(node_count(shape, p));
+      std::vector<ElementCost> costs(19);  // full lanes and a rest
+      Points nodes;
+      for (std::size_t e = 0; e < costs.size(); ++e) {
+        for (const Vec3& xi : lattice_xi(shape, p)) {
+          nodes.push_back(xi +
+                          Vec3(uniform(generator), uniform(generator), uniform(generator)) / p);
+        }
+      }
+
+      element_costs(shape, p, nodes, costs);
+
+      for (std::size_t e = 0; e < costs.size(); ++e) {
+        const ElementCost alone =
+            element_cost(shape, p, std::span<const Vec3>(nodes).subspan(e * n, n));
+        EXPECT_EQ(costs[e].minimum, alone.minimum) << name(shape) << p;
+        EXPECT_EQ(costs[e].average, alone.average) << name(shape) << p;
+      }
+    }
+  }
+}
+
+TEST(ElementCosts, AreTheFormulaAtTheGaussPoints) {
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> uniform(-0.02, 0.02);
+  for (Shape shape : {Shape::tetrahedron, Shape::pyramid, Shape::prism, Shape::hexahedron}) {
+    const Points nodes = mapped(shape, 2, [&](const Vec3& xi) {
+      return Vec3(xi + Vec3(uniform(generator), uniform(generator), uniform(generator)));
+    });
+    Points corner(static_cast<std::size_t>(corner_count(shape)));
+    for (std::size_t c = 0; c < corner.size(); ++c) {
+      corner[static_cast<std::size_t>(lattice_map(shape, 1).corner[c])] =
+          nodes[static_cast<std::size_t>(lattice_map(shape, 2).corner[c])];
+    }
+    double lowest = 1.0;
+    for (const Vec3& xi : gauss(shape, 5).points) {
+      const Mat3 W_inverse = jacobian(shape, 1, corner, xi).inverse();
+      lowest = std::min(lowest, camber::cost<double, 3>(jacobian(shape, 2, nodes, xi), W_inverse));
+    }
+
+    // Up to the order in which the Jacobians are summed.
+    EXPECT_NEAR(element_cost(shape, 2, nodes).minimum, lowest, 1e-13) << name(shape);
+  }
 }
 
 TEST(ElementCost, RejectsWhatIsNoElement) {

@@ -66,6 +66,12 @@ inline Pack<W> where_not_negative(const Pack<W>& test, const Pack<W>& a, const P
   return {test.v >= 0.0 ? a.v : b.v};
 }
 
+/// a where test > 0, b elsewhere.
+template <int W>
+inline Pack<W> where_positive(const Pack<W>& test, const Pack<W>& a, const Pack<W>& b) {
+  return {test.v > 0.0 ? a.v : b.v};
+}
+
 /// Hands out pieces of the scratch array.
 template <int W>
 struct Scratch {

@@ -86,13 +86,58 @@ void for_each_node(Shape shape, int p, const Product& f, const Node& node) {
   }
 }
 
+/// The values of silvester() and of line_basis() alone: the same operations, no slopes.
+using Values = std::array<double, k_max_lattice_order + 1>;
+
+void silvester_values(int p, double numerator, double denominator, Values& S) {
+  S[0] = 1.0;
+  for (int m = 1; m <= p; ++m) {
+    const auto at = static_cast<std::size_t>(m);
+    S[at] = S[at - 1] * ((p * numerator - (m - 1) * denominator) / (m * denominator));
+  }
+}
+
+void line_values(int p, double numerator, double denominator, Values& N) {
+  Values S, R;
+  silvester_values(p, numerator, denominator, S);
+  silvester_values(p, denominator - numerator, denominator, R);
+  for (int m = 0; m <= p; ++m) {
+    N[static_cast<std::size_t>(m)] =
+        S[static_cast<std::size_t>(m)] * R[static_cast<std::size_t>(p - m)];
+  }
+}
+
+/// What for_each_node gives with factors(), at less cost: this runs at every point of
+/// the displacement field.
 void product_values(Shape shape, int p, const Vec3& numerator, double denominator,
                     std::span<double> N) {
-  const Product f = factors(shape, p, numerator, denominator);
-  for_each_node(shape, p, f,
-                [&](std::size_t n, std::size_t i, std::size_t j, std::size_t k, double R, double) {
-                  N[n] = f.along[0].value[i] * f.along[1].value[j] * f.along[2].value[k] * R;
-                });
+  const int dim = dimension(shape);
+  const bool tensor = shape == Shape::quadrilateral || shape == Shape::hexahedron;
+  std::array<Values, 3> along;
+  Values remainder;
+  double rest = denominator;
+  std::array<int, 3> uses{};
+  for (int d = 0; d < 3; ++d) {
+    const auto at = static_cast<std::size_t>(d);
+    const bool in_simplex = !tensor && (d < 2 || shape != Shape::prism);
+    uses[at] = in_simplex ? 1 : 0;
+    if (in_simplex) rest -= numerator[d];
+    if (in_simplex && d >= dim) {
+      along[at][0] = 1.0;  // S_0: all that a coordinate the shape does not have is asked for
+    } else if (in_simplex) {
+      silvester_values(p, numerator[d], denominator, along[at]);
+    } else {
+      line_values(p, numerator[d], denominator, along[at]);
+    }
+  }
+  if (!tensor) silvester_values(p, rest, denominator, remainder);
+  std::size_t n = 0;
+  for (const LatticePoint& at : lattice(shape, p)) {
+    const int used = uses[0] * at[0] + uses[1] * at[1] + uses[2] * at[2];
+    const double R = tensor ? 1.0 : remainder[static_cast<std::size_t>(p - used)];
+    N[n++] = along[0][static_cast<std::size_t>(at[0])] * along[1][static_cast<std::size_t>(at[1])] *
+             along[2][static_cast<std::size_t>(at[2])] * R;
+  }
 }
 
 void require_size([[maybe_unused]] Shape shape, [[maybe_unused]] int p,

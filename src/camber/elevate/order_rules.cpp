@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 
 namespace camber {
@@ -70,17 +71,44 @@ class Shapes {
   Points points_;
 };
 
+/// Displacements of the insides of all edges at the orders 2..top, each asked of the field once:
+/// about five faces share an edge.
+class EdgeMoves {
+ public:
+  EdgeMoves(std::size_t edge_count, int top)
+      : per_edge_(first(top + 1)), u_(edge_count * per_edge_), lowest_(edge_count, 255) {}
+
+  /// To be filled from the highest order down.
+  [[nodiscard]] std::span<Vec3> fill(Index e, int q) {
+    lowest_[at(e)] = static_cast<std::uint8_t>(q);
+    return {u_.data() + at(e) * per_edge_ + first(q), sz(q - 1)};
+  }
+  /// What was filled in, or what the field says where the edge was found still before.
+  [[nodiscard]] std::span<const Vec3> at_order(const LayerField& field, Index e, int q,
+                                               std::span<Vec3> room) const {
+    if (q >= lowest_[at(e)]) return {u_.data() + at(e) * per_edge_ + first(q), sz(q - 1)};
+    field.edge(e, q, room.first(sz(q - 1)));
+    return room.first(sz(q - 1));
+  }
+
+ private:
+  static std::size_t first(int q) { return sz((q - 1) * (q - 2) / 2); }
+
+  std::size_t per_edge_;
+  Points u_;
+  std::vector<std::uint8_t> lowest_;
+};
+
 /// Full displacement lattice of a face at order q, from the field on its edges and inside.
-void face_lattice(const Topology& topology, const LayerField& field, Index f, int q,
-                  std::span<Vec3> u) {
+void face_lattice(const Topology& topology, const LayerField& field, const EdgeMoves& edges,
+                  Index f, int q, std::span<Vec3> u) {
   const Shape shape = topology.face_shape[at(f)];
   const LatticeMap& map = lattice_map(shape, q);
   std::fill(u.begin(), u.end(), Vec3::Zero());
   std::array<Vec3, 36> own;
   for (int i = 0; i < topology.corners_of_face(f); ++i) {
     const Index e = topology.face2edge[at(f)][sz(i)];
-    const std::span<Vec3> line(own.data(), sz(q - 1));
-    field.edge(e, q, line);
+    const std::span<const Vec3> line = edges.at_order(field, e, q, own);
     const bool reversed = topology.edge2vertex[at(e)][0] != topology.face2vertex[at(f)][sz(i)];
     const std::vector<int>& slots = map.edge_interior[sz(i)];
     for (std::size_t k = 0; k < slots.size(); ++k) {
@@ -159,6 +187,7 @@ StandIns find_stand_ins(const Topology& topology, const LayerField& field,
   };
   StandIns result{std::vector<StandIn>(topology.edge_count()),
                   std::vector<StandIn>(topology.face_count())};
+  EdgeMoves moves(topology.edge_count(), top);
   parallel_for(topology.edge_count(), k_grain, [&](std::size_t begin, std::size_t end) {
     Shapes shapes(Shape::line, top);
     std::array<Vec3, 8> u;
@@ -168,7 +197,9 @@ StandIns find_stand_ins(const Topology& topology, const LayerField& field,
       for (int q = top; q >= 2; --q) {
         const std::span<Vec3> line(u.data(), sz(q + 1));
         line.front() = line.back() = Vec3::Zero();
-        field.edge(static_cast<Index>(e), q, line.subspan(1, sz(q - 1)));
+        const std::span<Vec3> inside = moves.fill(static_cast<Index>(e), q);
+        field.edge(static_cast<Index>(e), q, inside);
+        std::copy(inside.begin(), inside.end(), line.begin() + 1);
         if (q == top && is_still(line, most)) break;
         shapes.set(q, line);
         if (q == 2) result.edge[e] = shapes.stand_in(most);
@@ -185,7 +216,7 @@ StandIns find_stand_ins(const Topology& topology, const LayerField& field,
       result.face[f].fill(1);
       for (int q = top; q >= 2; --q) {
         const std::span<Vec3> lattice(u.data(), sz(node_count(shape, q)));
-        face_lattice(topology, field, static_cast<Index>(f), q, lattice);
+        face_lattice(topology, field, moves, static_cast<Index>(f), q, lattice);
         if (q == top && is_still(lattice, most)) break;
         shapes.set(q, lattice);
         if (q == 2) result.face[f] = shapes.stand_in(most);

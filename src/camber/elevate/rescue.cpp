@@ -1,6 +1,6 @@
-#include <camber/base/parallel.hpp>
 #include <camber/base/sorted_set.hpp>
 #include <camber/elevate/rescue.hpp>
+#include <camber/validity/batch.hpp>
 
 #include <algorithm>
 #include <array>
@@ -77,20 +77,19 @@ class Reducer {
 
 std::vector<Index> uncertified_cells(const CurvedMesh& curved,
                                      const std::vector<Index>& candidates) {
-  std::vector<std::uint8_t> is_bad(candidates.size(), 0);
-  parallel_for(candidates.size(), 64, [&](std::size_t begin, std::size_t end) {
-    Points nodes;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index c = candidates[i];
-      const int p = curved.cell_order(c);
-      if (p < 2) continue;
-      curved.gather(c, p, nodes);
-      is_bad[i] = quick_verdict(curved.linear().cell_shape[at(c)], p, nodes) != Verdict::valid;
-    }
-  });
+  std::vector<Index> tested;
+  for (Index c : candidates) {
+    if (curved.cell_order(c) > 1) tested.push_back(c);
+  }
+  const std::vector<Verdict> verdicts =
+      quick_verdicts(tested.size(), [&](std::size_t i, Points& nodes) {
+        const int p = curved.cell_order(tested[i]);
+        curved.gather(tested[i], p, nodes);
+        return ElementKind{curved.linear().cell_shape[at(tested[i])], p};
+      });
   std::vector<Index> bad;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (is_bad[i]) bad.push_back(candidates[i]);
+  for (std::size_t i = 0; i < tested.size(); ++i) {
+    if (verdicts[i] != Verdict::valid) bad.push_back(tested[i]);
   }
   return bad;
 }

@@ -177,12 +177,16 @@ void CurvedMesh::gather(Index c, int q, Points& nodes) const {
     std::array<Vec3, 8> line;
     const std::span<const Index> cell_edges = t.edges_of_cell(c);
     for (std::size_t i = 0; i < cell_edges.size(); ++i) {
-      edge_lattice(cell_edges[i], p, line);
+      const Index e = cell_edges[i];
       const bool reversed = t.cell2edge_reversed[at(t.cell2edge_offset[at(c)]) + i] != 0;
       const std::vector<int>& slots = map.edge_interior[i];
+      std::span<const Vec3> inner = edge_nodes(e);
+      if (edge_order(e) != p) {
+        edge_lattice(e, p, line);
+        inner = std::span<const Vec3>(line).subspan(1, slots.size());
+      }
       for (std::size_t k = 0; k < slots.size(); ++k) {
-        nodes[static_cast<std::size_t>(slots[k])] =
-            line[reversed ? static_cast<std::size_t>(p) - 1 - k : k + 1];
+        nodes[static_cast<std::size_t>(slots[k])] = inner[reversed ? slots.size() - 1 - k : k];
       }
     }
     std::array<Vec3, k_face_capacity> surface;
@@ -190,12 +194,21 @@ void CurvedMesh::gather(Index c, int q, Points& nodes) const {
     for (std::size_t i = 0; i < cell_faces.size(); ++i) {
       const Index f = cell_faces[i];
       if (map.face_interior[i].empty()) continue;
-      face_lattice(f, p, surface);
+      if (face_order(f) == p) {
+        // Only the inside is read below: the edges of the face are those of the cell.
+        const std::span<const Vec3> own = face_nodes(f);
+        const std::vector<int>& interior = lattice_map(t.face_shape[at(f)], p).interior;
+        for (std::size_t k = 0; k < own.size(); ++k) {
+          surface[static_cast<std::size_t>(interior[k])] = own[k];
+        }
+      } else {
+        face_lattice(f, p, surface);
+      }
       const int view = t.cell2face_view[at(t.cell2face_offset[at(c)]) + i];
       const std::span<const int> frame_node = face_view_nodes(t.face_shape[at(f)], view, p);
-      for (int inner : interior_nodes(t.face_shape[at(f)], p)) {
-        nodes[static_cast<std::size_t>(map.face[i][static_cast<std::size_t>(inner)])] =
-            surface[static_cast<std::size_t>(frame_node[static_cast<std::size_t>(inner)])];
+      for (int inside : interior_nodes(t.face_shape[at(f)], p)) {
+        nodes[static_cast<std::size_t>(map.face[i][static_cast<std::size_t>(inside)])] =
+            surface[static_cast<std::size_t>(frame_node[static_cast<std::size_t>(inside)])];
       }
     }
     const std::span<const Vec3> inner = cell_nodes(c);

@@ -1,8 +1,7 @@
 #include <camber/base/error.hpp>
-#include <camber/base/parallel.hpp>
 #include <camber/mesh/linear_mesh.hpp>
 #include <camber/mesh/sew.hpp>
-#include <camber/validity/element_validity.hpp>
+#include <camber/validity/batch.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -91,27 +90,24 @@ void drop_unused_vertices(LinearMesh& mesh) {
 
 void refuse_inverted_cells(const LinearMesh& mesh, const std::string& source) {
   const std::size_t n = mesh.cell_count();
-  std::vector<std::uint8_t> is_bad(n, 0);
-  parallel_for(n, 4096, [&](std::size_t begin, std::size_t end) {
-    Points corner_points;
-    Points nodes;
-    for (std::size_t c = begin; c < end; ++c) {
-      const Shape shape = mesh.cell_shape[c];
-      const std::vector<int>& corner = lattice_map(shape, 1).corner;
-      const std::span<const Index> v = mesh.cell(static_cast<Index>(c));
-      nodes.resize(v.size());
-      for (std::size_t i = 0; i < v.size(); ++i) {
-        nodes[static_cast<std::size_t>(corner[i])] = mesh.vertices[at(v[i])];
-      }
-      is_bad[c] = quick_verdict(shape, 1, nodes) != Verdict::valid;
+  const std::vector<Verdict> verdicts = quick_verdicts(n, [&](std::size_t c, Points& nodes) {
+    const Shape shape = mesh.cell_shape[c];
+    const std::vector<int>& corner = lattice_map(shape, 1).corner;
+    const std::span<const Index> v = mesh.cell(static_cast<Index>(c));
+    nodes.resize(v.size());
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      nodes[static_cast<std::size_t>(corner[i])] = mesh.vertices[at(v[i])];
     }
+    return ElementKind{shape, 1};
   });
-  const std::size_t bad = static_cast<std::size_t>(std::count(is_bad.begin(), is_bad.end(), 1));
+  const auto is_bad = [](Verdict verdict) { return verdict != Verdict::valid; };
+  const auto bad =
+      static_cast<std::size_t>(std::count_if(verdicts.begin(), verdicts.end(), is_bad));
   if (bad == 0) return;
   std::string list;
   int listed = 0;
   for (std::size_t c = 0; c < n && listed < 10; ++c) {
-    if (!is_bad[c]) continue;
+    if (!is_bad(verdicts[c])) continue;
     Vec3 centre = Vec3::Zero();
     for (Index v : mesh.cell(static_cast<Index>(c))) centre += mesh.vertices[at(v)];
     centre /= static_cast<double>(mesh.cell(static_cast<Index>(c)).size());

@@ -71,35 +71,50 @@ CurvedMesh raise_orders(const CurvedMesh& curved, std::vector<std::uint8_t> cell
   return raised;
 }
 
+namespace {
+
+/// Nodes of a face in its own frame, as the nodes of order q of a cell on it say.
+void see_face(const CurvedMesh& curved, Index c, std::size_t local, int q, const Points& nodes,
+              Points& seen) {
+  const Topology& topology = curved.topology();
+  const std::vector<int>& slots = lattice_map(curved.linear().cell_shape[at(c)], q).face[local];
+  const std::size_t place = at(topology.cell2face_offset[at(c)]) + local;
+  const Shape shape = topology.face_shape[at(topology.cell2face[place])];
+  const std::span<const int> frame_node = face_view_nodes(shape, topology.cell2face_view[place], q);
+  seen.resize(slots.size());
+  for (std::size_t n = 0; n < slots.size(); ++n) seen[sz(frame_node[n])] = nodes[sz(slots[n])];
+}
+
+}  // namespace
+
 double largest_gap(const CurvedMesh& curved) {
   const Topology& topology = curved.topology();
-  std::vector<double> gap(topology.face_count(), 0.0);
-  parallel_for(topology.face_count(), k_grain, [&](std::size_t begin, std::size_t end) {
-    Points nodes;
+  const std::size_t cells = curved.linear().cell_count();
+  std::vector<double> gap(cells, 0.0);  // on the faces that the cell is the first of
+  // By cell, so that its nodes are gathered once for all its faces.
+  parallel_for(cells, k_grain, [&](std::size_t begin, std::size_t end) {
+    Points own, other;
     std::array<Points, 2> seen;
     for (std::size_t i = begin; i < end; ++i) {
-      const auto [a, b] = topology.face2cell[i];
-      if (b == k_none) continue;
-      const int q = std::max(curved.cell_order(a), curved.cell_order(b));
-      if (q < 2) continue;
-      const Shape shape = topology.face_shape[i];
-      for (std::size_t side = 0; side < 2; ++side) {
-        const Index c = side == 0 ? a : b;
-        curved.gather(c, q, nodes);
-        const std::span<const Index> cell_faces = topology.faces_of_cell(c);
-        std::size_t local = 0;
-        while (cell_faces[local] != static_cast<Index>(i)) ++local;
-        const std::vector<int>& slots =
-            lattice_map(curved.linear().cell_shape[at(c)], q).face[local];
-        const int view = topology.cell2face_view[at(topology.cell2face_offset[at(c)]) + local];
-        const std::span<const int> frame_node = face_view_nodes(shape, view, q);
-        seen[side].resize(slots.size());
-        for (std::size_t n = 0; n < slots.size(); ++n) {
-          seen[side][sz(frame_node[n])] = nodes[sz(slots[n])];
+      const Index a = static_cast<Index>(i);
+      const std::span<const Index> faces = topology.faces_of_cell(a);
+      int gathered = 0;  // order of `own`
+      for (std::size_t local = 0; local < faces.size(); ++local) {
+        const auto [first, b] = topology.face2cell[at(faces[local])];
+        if (first != a || b == k_none) continue;
+        const int q = std::max(curved.cell_order(a), curved.cell_order(b));
+        if (q < 2) continue;
+        if (gathered != q) curved.gather(a, q, own);
+        gathered = q;
+        curved.gather(b, q, other);
+        const std::span<const Index> others = topology.faces_of_cell(b);
+        std::size_t there = 0;
+        while (others[there] != faces[local]) ++there;
+        see_face(curved, a, local, q, own, seen[0]);
+        see_face(curved, b, there, q, other, seen[1]);
+        for (std::size_t n = 0; n < seen[0].size(); ++n) {
+          gap[i] = std::max(gap[i], (seen[0][n] - seen[1][n]).norm());
         }
-      }
-      for (std::size_t n = 0; n < seen[0].size(); ++n) {
-        gap[i] = std::max(gap[i], (seen[0][n] - seen[1][n]).norm());
       }
     }
   });

@@ -17,6 +17,16 @@ struct Use {
   Index cell, slot;  // place in cell2edge / cell2face
 };
 
+/// Below 0, 0 or above 0 as a is before, equal to or after b. A loop: comparing arrays calls
+/// memcmp, which costs more than these few numbers.
+template <std::size_t N>
+int compared(const std::array<Index, N>& a, const std::array<Index, N>& b) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
+  }
+  return 0;
+}
+
 /// Uses by smallest vertex, each bucket sorted by the other corners and then by slot: the order of
 /// sorted corner keys, without sorting all at once.
 template <std::size_t N>
@@ -39,7 +49,8 @@ class Buckets {
       for (std::size_t v = begin; v < end; ++v) {
         std::sort(uses_.begin() + first_[v], uses_.begin() + first_[v + 1],
                   [](const Use<N>& a, const Use<N>& b) {
-                    return a.rest != b.rest ? a.rest < b.rest : a.slot < b.slot;
+                    const int order = compared(a.rest, b.rest);
+                    return order != 0 ? order < 0 : a.slot < b.slot;
                   });
       }
     });
@@ -50,7 +61,8 @@ class Buckets {
   void in_order(const Visit& visit) const {
     for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
       for (Index i = first_[v]; i < first_[v + 1]; ++i) {
-        const bool is_new = i == first_[v] || uses_[at(i)].rest != uses_[at(i) - 1].rest;
+        const bool is_new =
+            i == first_[v] || compared(uses_[at(i)].rest, uses_[at(i) - 1].rest) != 0;
         visit(static_cast<Index>(v), uses_[at(i)], is_new);
       }
     }
@@ -149,9 +161,8 @@ void link_face_edges(Topology& topology) {
       for (std::size_t i = 0; i < v.size(); ++i) {
         const auto [a, b] = std::minmax(v[i], v[(i + 1) % v.size()]);
         for (Index e : topology.edges_of_cell(topology.face2cell[f][0])) {
-          if (topology.edge2vertex[at(e)] == std::array<Index, 2>{a, b}) {
-            topology.face2edge[f][i] = e;
-          }
+          const std::array<Index, 2>& ends = topology.edge2vertex[at(e)];
+          if (ends[0] == a && ends[1] == b) topology.face2edge[f][i] = e;
         }
       }
     }

@@ -1,15 +1,22 @@
+#include <camber/base/parallel.hpp>
+#include <camber/base/processor.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/basis/quadrature.hpp>
 #include <camber/metric/cost.hpp>
+#include <camber/metric/detail/cost_view.hpp>
 #include <camber/metric/element_quality.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace camber {
 
@@ -24,6 +31,13 @@ struct SurveyTable {
   MatX straight;                 // (dim * points) x corners of (shape, 1)
   std::vector<int> corner_node;  // node of order p at node n of order 1
   Eigen::Index points = 0;
+  // The same by point, direction and node, for the kernels of volume elements.
+  std::vector<double> by_point, straight_by_point;
+
+  [[nodiscard]] detail::CostView view() const {
+    return {static_cast<int>(curved.cols()), static_cast<int>(straight.cols()),
+            static_cast<int>(points), by_point.data(), straight_by_point.data()};
+  }
 };
 
 MatX stacked_gradients(Shape shape, int p, std::span<const Vec3> xi) {
@@ -34,6 +48,19 @@ MatX stacked_gradients(Shape shape, int p, std::span<const Vec3> xi) {
     G.middleRows(d * points, points) = table.gradient[static_cast<std::size_t>(d)];
   }
   return G;
+}
+
+std::vector<double> by_point(const MatX& stacked, Eigen::Index points) {
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(stacked.size()));
+  for (Eigen::Index q = 0; q < points; ++q) {
+    for (Eigen::Index d = 0; d * points < stacked.rows(); ++d) {
+      for (Eigen::Index n = 0; n < stacked.cols(); ++n) {
+        values.push_back(stacked(d * points + q, n));
+      }
+    }
+  }
+  return values;
 }
 
 SurveyTable make_table(Shape shape, int p) {
@@ -47,6 +74,10 @@ SurveyTable make_table(Shape shape, int p) {
   table.corner_node.resize(corner.size());
   for (std::size_t c = 0; c < corner.size(); ++c) {
     table.corner_node[static_cast<std::size_t>(linear_corner[c])] = corner[c];
+  }
+  if (dimension(shape) == 3) {
+    table.by_point = by_point(table.curved, table.points);
+    table.straight_by_point = by_point(table.straight, table.points);
   }
   return table;
 }
@@ -75,11 +106,6 @@ Mat<double, 2> in_own_plane(const Vec3& a, const Vec3& b) {
   return M;
 }
 
-double volume_cost(const Mat3& A, const Mat3& W) {
-  if (!(W.determinant() > 0.0)) return 0.0;  // no ideal to compare with
-  return cost<double, 3>(A, W.inverse());
-}
-
 double surface_cost(const Vec3& a1, const Vec3& a2, const Vec3& w1, const Vec3& w2) {
   const Vec3 n = a1.cross(a2), N = w1.cross(w2);
   if (!(N.norm() > 0.0)) return 0.0;
@@ -89,15 +115,16 @@ double surface_cost(const Vec3& a1, const Vec3& a2, const Vec3& w1, const Vec3& 
                                                         in_own_plane(w1, w2).inverse()));
 }
 
-}  // namespace
+void require_nodes(Shape shape, int p, const SurveyTable& table, std::size_t elements,
+                   std::size_t nodes) {
+  const auto each = static_cast<std::size_t>(table.curved.cols());
+  if (nodes == elements * each) return;
+  throw std::invalid_argument(std::string(name(shape)) + " of order " + std::to_string(p) +
+                              " has " + std::to_string(each) + " nodes, not " +
+                              std::to_string(nodes) + " for " + std::to_string(elements));
+}
 
-ElementCost element_cost(Shape shape, int p, std::span<const Vec3> nodes) {
-  const SurveyTable& table = survey_table(shape, p);
-  if (static_cast<Eigen::Index>(nodes.size()) != table.curved.cols()) {
-    throw std::invalid_argument(std::string(name(shape)) + " of order " + std::to_string(p) +
-                                " has " + std::to_string(table.curved.cols()) + " nodes, not " +
-                                std::to_string(nodes.size()));
-  }
+ElementCost face_cost(const SurveyTable& table, std::span<const Vec3> nodes) {
   // From a local origin, so that differences of close nodes keep their digits.
   Eigen::Matrix<double, Eigen::Dynamic, 3> x(table.curved.cols(), 3), X(table.straight.cols(), 3);
   for (Eigen::Index n = 0; n < x.rows(); ++n) {
@@ -113,23 +140,104 @@ ElementCost element_cost(Shape shape, int p, std::span<const Vec3> nodes) {
   double sum = 0.0;
   const Eigen::Index points = table.points;
   for (Eigen::Index q = 0; q < points; ++q) {
-    double c = 0.0;
-    if (dimension(shape) == 3) {
-      Mat3 A, W;
-      for (Eigen::Index d = 0; d < 3; ++d) {
-        A.col(d) = dx.row(d * points + q).transpose();
-        W.col(d) = dX.row(d * points + q).transpose();
-      }
-      c = volume_cost(A, W);
-    } else {
-      c = surface_cost(dx.row(q).transpose(), dx.row(points + q).transpose(), dX.row(q).transpose(),
-                       dX.row(points + q).transpose());
-    }
+    const double c = surface_cost(dx.row(q).transpose(), dx.row(points + q).transpose(),
+                                  dX.row(q).transpose(), dX.row(points + q).transpose());
     sum += c;
     result.minimum = std::min(result.minimum, c);
   }
   result.average = sum / static_cast<double>(points);
   return result;
+}
+
+/// Costs of as many elements as the kernel has lanes.
+void run_lanes(const SurveyTable& table, const detail::CostKernelChoice& kernel,
+               std::span<const Vec3> nodes, std::span<ElementCost> costs) {
+  const detail::CostView view = table.view();
+  const auto lanes = static_cast<std::size_t>(kernel.lanes);
+  const auto n = static_cast<std::size_t>(view.nodes), m = static_cast<std::size_t>(view.corners);
+  // On the boundary that the widest vectors want.
+  constexpr std::size_t k_line = 8;
+  thread_local std::vector<double> storage;
+  storage.resize((3 * n + 3 * m + 2) * lanes + k_line);
+  double* x = storage.data();
+  while (reinterpret_cast<std::uintptr_t>(x) % (k_line * sizeof(double)) != 0) ++x;
+  double *corners = x + 3 * n * lanes, *minimum = corners + 3 * m * lanes, *sum = minimum + lanes;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const std::span<const Vec3> own = nodes.subspan(lane * n, n);
+    // From a local origin, so that differences of close nodes keep their digits.
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec3 place = own[k] - own[0];
+      for (std::size_t d = 0; d < 3; ++d) {
+        x[(d * n + k) * lanes + lane] = place[static_cast<Eigen::Index>(d)];
+      }
+    }
+    for (std::size_t k = 0; k < m; ++k) {
+      const auto node = static_cast<std::size_t>(table.corner_node[k]);
+      for (std::size_t d = 0; d < 3; ++d) {
+        corners[(d * m + k) * lanes + lane] = x[(d * n + node) * lanes + lane];
+      }
+    }
+  }
+  kernel.run(view, x, corners, minimum, sum);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    costs[lane] = {minimum[lane], sum[lane] / static_cast<double>(view.points)};
+  }
+}
+
+}  // namespace
+
+ElementCost element_cost(Shape shape, int p, std::span<const Vec3> nodes) {
+  const SurveyTable& table = survey_table(shape, p);
+  require_nodes(shape, p, table, 1, nodes.size());
+  if (dimension(shape) == 2) return face_cost(table, nodes);
+  ElementCost result;
+  run_lanes(table, detail::cost_kernel_of(1), nodes, {&result, 1});
+  return result;
+}
+
+void element_costs(Shape shape, int p, std::span<const Vec3> nodes, std::span<ElementCost> costs) {
+  const SurveyTable& table = survey_table(shape, p);
+  require_nodes(shape, p, table, costs.size(), nodes.size());
+  if (dimension(shape) != 3) {
+    throw std::invalid_argument(std::string(name(shape)) + " is no volume element");
+  }
+  static const detail::CostKernelChoice widest = detail::cost_kernel_of(widest_lanes());
+  const auto each = static_cast<std::size_t>(table.curved.cols());
+  for (std::size_t i = 0; i < costs.size();) {
+    const bool fills = i + static_cast<std::size_t>(widest.lanes) <= costs.size();
+    const detail::CostKernelChoice kernel = fills ? widest : detail::cost_kernel_of(1);
+    const auto lanes = static_cast<std::size_t>(kernel.lanes);
+    run_lanes(table, kernel, nodes.subspan(i * each, lanes * each), costs.subspan(i, lanes));
+    i += lanes;
+  }
+}
+
+std::vector<double> lowest_costs(std::size_t n, const GatherElement& gather) {
+  std::vector<double> lowest(n, 1.0);
+  // Elements gathered before they are sorted into lanes.
+  constexpr std::size_t k_chunk = 128;
+  struct Bin {
+    std::vector<std::size_t> elements;
+    Points nodes;
+  };
+  parallel_for(n, k_chunk, [&](std::size_t begin, std::size_t end) {
+    std::map<std::pair<Shape, int>, Bin> bins;
+    Points one;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::pair<Shape, int> kind = gather(i, one);
+      if (kind.second == 1) continue;
+      Bin& bin = bins[kind];
+      bin.elements.push_back(i);
+      bin.nodes.insert(bin.nodes.end(), one.begin(), one.end());
+    }
+    std::vector<ElementCost> costs;
+    for (const auto& [kind, bin] : bins) {
+      costs.resize(bin.elements.size());
+      element_costs(kind.first, kind.second, bin.nodes, costs);
+      for (std::size_t k = 0; k < costs.size(); ++k) lowest[bin.elements[k]] = costs[k].minimum;
+    }
+  });
+  return lowest;
 }
 
 }  // namespace camber

@@ -2,7 +2,10 @@
 // The paper's cost on one whole element, at points of the full polynomial map.
 #include <camber/basis/shape.hpp>
 
+#include <functional>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace camber {
 
@@ -21,5 +24,19 @@ struct ElementCost {
 /// Tables are cached, any thread. Throws std::invalid_argument for another shape, order or node
 /// count.
 [[nodiscard]] ElementCost element_cost(Shape shape, int p, std::span<const Vec3> nodes);
+
+/// The same bits for several volume elements of one kind, as many at once as the processor has
+/// lanes.
+/// @param nodes  those of all elements, one element after the other
+/// @param costs  one per element, overwritten
+void element_costs(Shape shape, int p, std::span<const Vec3> nodes, std::span<ElementCost> costs);
+
+/// Fills `nodes` with the canonical nodes of element i and gives its shape and order; of an element
+/// of order 1 the nodes are not needed. Called once per element, from several threads at once.
+using GatherElement = std::function<std::pair<Shape, int>(std::size_t i, Points& nodes)>;
+
+/// Lowest cost of volume elements 0..n-1, 1 where the order is: a linear cell is its own straight
+/// copy. Same bits for any number of threads.
+[[nodiscard]] std::vector<double> lowest_costs(std::size_t n, const GatherElement& gather);
 
 }  // namespace camber

@@ -96,14 +96,9 @@ void certify_cells(const ElementList& cells, Report& report, CellFindings* findi
 /// A linear cell is its own straight copy: C = 1.
 void measure_quality(const ElementList& cells, Report& report, CellFindings* findings) {
   const std::size_t n = cells.size();
-  std::vector<double> cost(n, 1.0);
-  parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
-    Points nodes;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (cells.order(i) == 1) continue;
-      cells.gather(i, nodes);
-      cost[i] = element_cost(cells.shape(i), cells.order(i), nodes).minimum;
-    }
+  std::vector<double> cost = lowest_costs(n, [&](std::size_t i, Points& nodes) {
+    if (cells.order(i) > 1) cells.gather(i, nodes);
+    return std::pair(cells.shape(i), cells.order(i));
   });
   auto& quality = report.quality;
   for (double c : cost) {

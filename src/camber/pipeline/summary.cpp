@@ -4,6 +4,7 @@
 #include <camber/metric/element_quality.hpp>
 #include <camber/pipeline/detail/report_warnings.hpp>
 #include <camber/pipeline/summary.hpp>
+#include <camber/smooth/polish.hpp>
 #include <camber/validity/batch.hpp>
 
 #include <algorithm>
@@ -54,15 +55,7 @@ void certify_cells(CurveResult& result, Report& report) {
   };
   const std::vector<JacobianBounds> bounds = certify_all(n, gather);
   result.cell_bound.resize(n);
-  result.cell_cost.resize(n);
-  parallel_for(n, 512, [&](std::size_t begin, std::size_t end) {
-    Points nodes;
-    for (std::size_t i = begin; i < end; ++i) {
-      const ElementKind kind = gather(i, nodes);
-      result.cell_cost[i] =
-          kind.order == 1 ? 1.0 : element_cost(kind.shape, kind.order, nodes).minimum;
-    }
-  });
+  result.cell_cost = cell_costs(curved);
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const JacobianBounds& b = bounds[i];

@@ -1,14 +1,14 @@
-#include <camber/base/parallel.hpp>
 #include <camber/base/sorted_set.hpp>
 #include <camber/metric/element_quality.hpp>
 #include <camber/smooth/detail/cell_groups.hpp>
 #include <camber/smooth/detail/group_solver.hpp>
 #include <camber/smooth/lbfgs.hpp>
 #include <camber/smooth/polish.hpp>
-#include <camber/validity/element_validity.hpp>
+#include <camber/validity/batch.hpp>
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace camber {
 namespace {
@@ -20,27 +20,15 @@ constexpr double k_price = 0.02;
 /// Strain of a patch at most, summed in squares over its cells.
 constexpr double k_longest_step = 0.5;
 
-double cost_of(const CurvedMesh& curved, Index c, Points& nodes) {
-  const int p = curved.cell_order(c);
-  if (p < 2) return 1.0;
-  curved.gather(c, p, nodes);
-  return element_cost(curved.linear().cell_shape[at(c)], p, nodes).minimum;
-}
-
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// The cell came out worse than it may: below the lowest cost of the patch, out of the kept costs,
-/// much lower than it was, or not certified.
-bool is_worse(const CurvedMesh& curved, Index c, double before, double after, double lowest,
-              double kept) {
+/// The cell costs more than it may: it is below the lowest cost of the patch, out of the kept
+/// costs, or much lower than it was.
+bool is_costlier(double before, double after, double lowest, double kept) {
   if (after < before && (after < lowest || after < before - k_price)) return true;
-  if (before >= kept && after < kept) return true;
-  Points nodes;
-  curved.gather(c, curved.cell_order(c), nodes);
-  return quick_verdict(curved.linear().cell_shape[at(c)], curved.cell_order(c), nodes) !=
-         Verdict::valid;
+  return before >= kept && after < kept;
 }
 
 /// Stores x, putting the nodes of cells that came out worse back to `start` until none did; returns
@@ -62,14 +50,25 @@ std::vector<double> store_what_is_better(CurvedMesh& curved, const detail::CellE
   std::iota(changed.begin(), changed.end(), std::size_t{0});
   for (int round = 0; round < k_put_back_rounds; ++round) {
     energy.store(x, curved);
-    parallel_for(changed.size(), 32, [&](std::size_t begin, std::size_t end) {
-      Points nodes;
-      for (std::size_t k = begin; k < end; ++k) {
-        const std::size_t i = changed[k];
-        after[i] = cost_of(curved, cells[i], nodes);
-        is_bad[i] = is_worse(curved, cells[i], before[i], after[i], lowest, kept);
-      }
-    });
+    std::vector<Index> asked;
+    for (std::size_t i : changed) asked.push_back(cells[i]);
+    const std::vector<double> costs = cell_costs(curved, asked);
+    std::vector<std::size_t> open;  // may stay if they are certified
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+      const std::size_t i = changed[k];
+      after[i] = costs[k];
+      is_bad[i] = is_costlier(before[i], after[i], lowest, kept);
+      if (!is_bad[i]) open.push_back(i);
+    }
+    const std::vector<Verdict> verdicts =
+        quick_verdicts(open.size(), [&](std::size_t k, Points& nodes) {
+          const Index c = cells[open[k]];
+          curved.gather(c, curved.cell_order(c), nodes);
+          return ElementKind{curved.linear().cell_shape[at(c)], curved.cell_order(c)};
+        });
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      is_bad[open[k]] = verdicts[k] != Verdict::valid;
+    }
     std::vector<std::size_t> next;
     for (std::size_t i : changed) {
       if (!is_bad[i]) continue;
@@ -154,12 +153,11 @@ bool polish_patch(CurvedMesh& curved, const std::vector<Index>& core,
 }  // namespace
 
 std::vector<double> cell_costs(const CurvedMesh& curved, const std::vector<Index>& cells) {
-  std::vector<double> costs(cells.size());
-  parallel_for(cells.size(), 64, [&](std::size_t begin, std::size_t end) {
-    Points nodes;
-    for (std::size_t i = begin; i < end; ++i) costs[i] = cost_of(curved, cells[i], nodes);
+  return lowest_costs(cells.size(), [&](std::size_t i, Points& nodes) {
+    const int p = curved.cell_order(cells[i]);
+    if (p > 1) curved.gather(cells[i], p, nodes);
+    return std::pair(curved.linear().cell_shape[at(cells[i])], p);
   });
-  return costs;
 }
 
 std::vector<double> cell_costs(const CurvedMesh& curved) {

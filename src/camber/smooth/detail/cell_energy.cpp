@@ -6,6 +6,8 @@
 #include <camber/smooth/distortion.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -355,63 +357,82 @@ std::vector<MatX> CellEnergy::diagonal_blocks(const std::vector<std::vector<Inde
       place[at(groups[g][k])] = static_cast<Index>(k);
     }
   }
-  struct Entry {
-    Index unknown;
-    std::size_t node;
-    double coefficient;
-  };
   struct Part {  // of one cell
     Index row, column;
+    int pair;  // of its batch
     double value;
   };
   std::vector<std::vector<Part>> parts(cells().size());
-  const auto add_cell = [&](const EnergyPlan& plan, std::size_t i) {
+  struct Room {
+    std::vector<double> values;
+    std::vector<int> number, pairs;  // [a][b] -> number of the pair, and back
+  };
+  const auto add_lanes = [&](const EnergyPlan& plan, std::span<const std::size_t> own, Room& room) {
     const EnergyView view = plan.view();
-    const std::size_t n = sz(view.nodes);
+    const std::size_t n = sz(view.nodes), lanes = own.size(), corners = sz(view.corners);
+    room.number.assign(n * n, -1);
+    room.pairs.clear();
+    struct Entry {
+      Index unknown;
+      std::size_t node;
+      double coefficient;
+    };
     std::vector<Entry> entries;
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t row = map_.first_row(i) + k;
-      for (std::size_t e = row_offset_[row]; e < row_offset_[row + 1]; ++e) {
-        const Index unknown = columns_[at(column_of_[e])].unknown;
-        if (unknown != k_none) entries.push_back({unknown, k, coefficient_[e]});
+    for (std::size_t i : own) {
+      entries.clear();
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t row = map_.first_row(i) + k;
+        for (std::size_t e = row_offset_[row]; e < row_offset_[row + 1]; ++e) {
+          const Index unknown = columns_[at(column_of_[e])].unknown;
+          if (unknown != k_none) entries.push_back({unknown, k, coefficient_[e]});
+        }
       }
-    }
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (std::size_t a = 0; a < entries.size(); ++a) {
-      for (std::size_t b = 0; b <= a; ++b) {
-        if (group_of[at(entries[a].unknown)] == group_of[at(entries[b].unknown)]) {
-          pairs.emplace_back(entries[a].node, entries[b].node);
+      for (std::size_t a = 0; a < entries.size(); ++a) {
+        for (std::size_t b = 0; b <= a; ++b) {
+          if (group_of[at(entries[a].unknown)] != group_of[at(entries[b].unknown)]) continue;
+          int& number = room.number[entries[a].node * n + entries[b].node];
+          if (number < 0) {
+            number = static_cast<int>(room.pairs.size() / 2);
+            room.pairs.push_back(static_cast<int>(entries[a].node));
+            room.pairs.push_back(static_cast<int>(entries[b].node));
+          }
           parts[i].push_back(
-              {entries[a].unknown, entries[b].unknown,
+              {entries[a].unknown, entries[b].unknown, number,
                (a == b ? 0.5 : 1.0) * entries[a].coefficient * entries[b].coefficient});
         }
       }
     }
-    std::vector<double> sums(pairs.size(), 0.0);
-    MatX g(3, static_cast<Eigen::Index>(n));
-    const std::span<const Index> v = mesh_.cell(cells()[i]);
-    const std::vector<int>& linear = lattice_map(plan.shape(), 1).corner;
-    for (int s = 0; s < view.samples; ++s) {
-      Mat3 W = Mat3::Zero();
-      for (std::size_t c = 0; c < v.size(); ++c) {
-        for (int d = 0; d < 3; ++d) {
-          W.col(d) += (mesh_.vertices[at(v[c])] - mesh_.vertices[at(v[0])]) *
-                      view.straight_gradient[(s * 3 + d) * view.corners + linear[c]];
+    // On the boundary the widest vectors want.
+    constexpr std::size_t k_line = 8;
+    const std::size_t pair_count = room.pairs.size() / 2;
+    room.values.resize((3 * corners + 3 * n + pair_count) * lanes + k_line);
+    double* corner = room.values.data();
+    while (reinterpret_cast<std::uintptr_t>(corner) % (k_line * sizeof(double)) != 0) ++corner;
+    double *const slopes = corner + 3 * corners * lanes, *const sums = slopes + 3 * n * lanes;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::span<const Index> v = mesh_.cell(cells()[own[l]]);
+      for (std::size_t c = 0; c < corners; ++c) {
+        const Vec3 x = mesh_.vertices[at(v[c])] - mesh_.vertices[at(v[0])];
+        for (std::size_t d = 0; d < 3; ++d) {
+          corner[(d * corners + c) * lanes + l] = x[static_cast<Eigen::Index>(d)];
         }
       }
-      const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>> dN(
-          view.gradient + s * 3 * view.nodes, 3, view.nodes);
-      g.noalias() = W.inverse().transpose() * dN;
-      for (std::size_t p = 0; p < pairs.size(); ++p) {
-        sums[p] += view.weight[s] * g.col(static_cast<Eigen::Index>(pairs[p].first))
-                                        .dot(g.col(static_cast<Eigen::Index>(pairs[p].second)));
-      }
     }
-    for (std::size_t p = 0; p < pairs.size(); ++p) parts[i][p].value *= sums[p];
+    energy_kernel_of(static_cast<int>(lanes))
+        .stiffness(view, corner, lattice_map(plan.shape(), 1).corner.data(), room.pairs.data(),
+                   static_cast<int>(pair_count), slopes, sums);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      for (Part& part : parts[own[l]]) part.value *= sums[sz(part.pair) * lanes + l];
+    }
   };
   parallel_for(batches_.size(), k_batches_per_task, [&](std::size_t begin, std::size_t end) {
+    Room room;
     for (std::size_t b = begin; b < end; ++b) {
-      for (std::size_t i : batches_[b].cells) add_cell(*batches_[b].plan, i);
+      const std::span<const std::size_t> all = batches_[b].cells;
+      const std::size_t lanes = all.size() == sz(lanes_) ? all.size() : 1;
+      for (std::size_t i = 0; i < all.size(); i += lanes) {
+        add_lanes(*batches_[b].plan, all.subspan(i, lanes), room);
+      }
     }
   });
   // Cells one after the other, so that the sums have one order.

@@ -8,4 +8,9 @@ void energy_four_lanes(EnergyKind kind, const EnergyView& view, const double* x,
   energy_kernel<4>(kind, view, x, corners, delta, slope, energy, least);
 }
 
+void stiffness_four_lanes(const EnergyView& view, const double* corners, const int* linear,
+                          const int* pairs, int pair_count, double* room, double* sums) {
+  stiffness_kernel<4>(view, corners, linear, pairs, pair_count, room, sums);
+}
+
 }  // namespace camber::detail

@@ -199,5 +199,47 @@ void energy_kernel(EnergyKind kind, const EnergyView& view, const double* x_valu
   *reinterpret_cast<Pack<W>*>(least_values) = least;
 }
 
+template <int W>
+void stiffness_kernel(const EnergyView& view, const double* corner_values, const int* linear,
+                      const int* pairs, int pair_count, double* room, double* sum_values) {
+  const Pack<W>* corners = reinterpret_cast<const Pack<W>*>(corner_values);
+  Pack<W>* g = reinterpret_cast<Pack<W>*>(room);
+  Pack<W>* sums = reinterpret_cast<Pack<W>*>(sum_values);
+  const int n = view.nodes;
+  const Pack<W> zero = broadcast<W>(0.0);
+  for (int p = 0; p < pair_count; ++p) sums[p] = zero;
+  for (int s = 0; s < view.samples; ++s) {
+    Matrix<W> straight;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const double* d = view.straight_gradient + (s * 3 + j) * view.corners;
+        Pack<W> sum = zero;
+        for (int c = 0; c < view.corners; ++c) {
+          sum = sum + d[linear[c]] * corners[i * view.corners + c];
+        }
+        straight.m[i][j] = sum;
+      }
+    }
+    // W^-T = cof(W) / det W.
+    const Matrix<W> cof = cofactor(straight);
+    const Pack<W> inverse_det =
+        broadcast<W>(1.0) / (cof.m[0][0] * straight.m[0][0] + cof.m[1][0] * straight.m[1][0] +
+                             cof.m[2][0] * straight.m[2][0]);
+    const double* dN = view.gradient + s * 3 * n;
+    for (int i = 0; i < 3; ++i) {
+      const Pack<W> t0 = cof.m[i][0] * inverse_det, t1 = cof.m[i][1] * inverse_det,
+                    t2 = cof.m[i][2] * inverse_det;
+      for (int k = 0; k < n; ++k) {
+        g[3 * k + i] = dN[k] * t0 + (dN[n + k] * t1 + dN[2 * n + k] * t2);
+      }
+    }
+    const double weight = view.weight[s];
+    for (int p = 0; p < pair_count; ++p) {
+      const Pack<W>*a = g + 3 * pairs[2 * p], *b = g + 3 * pairs[2 * p + 1];
+      sums[p] = sums[p] + weight * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace camber::detail

@@ -31,8 +31,20 @@ using EnergyKernel = void (*)(EnergyKind kind, const EnergyView& view, const dou
                               const double* corners, const double* delta, double* slope,
                               double* energy, double* least);
 
+/// For `lanes` elements at once: sums[pair] = sum_s weight_s (W^-T grad N_a) . (W^-T grad N_b) for
+/// pairs (a, b) of nodes, W the Jacobian of the straight element: entries of the stiffness that
+/// EnergyKind::metric is the energy of.
+/// @param corners  [component][corner][lane], in the order of the cell's corners
+/// @param linear   [corner]: its node of the linear basis
+/// @param pairs    [pair][2]
+/// @param room     [3][node][lane], overwritten
+/// @param sums     [pair][lane], overwritten
+using StiffnessKernel = void (*)(const EnergyView& view, const double* corners, const int* linear,
+                                 const int* pairs, int pair_count, double* room, double* sums);
+
 struct EnergyKernelChoice {
   EnergyKernel run = nullptr;
+  StiffnessKernel stiffness = nullptr;
   int lanes = 1;
 };
 /// The kernel for 1, 2, 4 or 8 lanes; run is null where this build or this machine has none. All
