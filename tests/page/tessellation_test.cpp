@@ -155,7 +155,7 @@ TEST(Tessellation, ListsEveryEdgeOnce) {
 
   std::size_t edges = 0;
   for (std::uint8_t own : result.own_edges) {
-    for (int k = 0; k < 4; ++k) edges += (own >> k) & 1U;
+    for (int k = 0; k < 4; ++k) edges += static_cast<unsigned>(own >> k) & 1U;
   }
   EXPECT_EQ(edges, 2u * s.faces.size());  // closed, four edges a face, each of two faces
 }
