@@ -19,7 +19,7 @@ Verb add_cite(CLI::App& app) {
     if (!flags->json.empty()) {
       const nlohmann::ordered_json json{
           {"command", "cite"}, {"status", "ok"}, {"exit_code", 0}, {"bibtex", k_references}};
-      write_text(flags->json, json.dump(2) + "\n");
+      io::write_text(flags->json, json.dump(2) + "\n");
     }
     return 0;
   };

@@ -84,7 +84,7 @@ int run(const ConvertFlags& flags) {
     for (const auto& [order, count] : after) {
       json["output"]["cells_by_order"][std::to_string(order)] = count;
     }
-    write_text(flags.common.json, json.dump(2) + "\n");
+    io::write_text(flags.common.json, json.dump(2) + "\n");
   }
   return 0;
 }

@@ -71,10 +71,6 @@ CurveOptions options_of(const CurveFlags& flags) {
                       "leave it out, or give the CAD with -g");
   }
   options.scale = scale_of_unit(flags.unit);
-  if (flags.geometry.size() == 1 && is_geometry_without_cad(flags.geometry.front())) {
-    if (flags.link == "auto") options.link_by = LinkBy::shape;  // it has no tags for the mesh
-    if (options.scale == 0.0) options.scale = 1.0;              // and the mesh's unit
-  }
   set_deviation_length(flags.deviation_length, options.orders);
   options.association = association_of(flags.patches);
   for (const std::string& text : flags.periodic) {
@@ -92,6 +88,9 @@ CurveOptions options_of(const CurveFlags& flags) {
   } else if (flags.link != "auto") {
     options.link_by = LinkBy::file;
     options.mesh_link = io::read_meshlink(flags.link);
+  }
+  if (flags.geometry.size() == 1 && is_geometry_without_cad(flags.geometry.front())) {
+    link_without_cad(options);
   }
   if (options.orders.min_order > options.orders.max_order) {
     throw OptionError(fmt::format("the lowest order {} is above the highest, {}",
@@ -132,9 +131,7 @@ std::vector<std::pair<std::string, std::string>> shown(const CurveFlags& flags,
 }
 
 FeatureOptions features_of(const CurveFlags& flags) {
-  FeatureOptions features;
-  features.angle = features.corner_angle = flags.feature_angle;
-  return features;
+  return {flags.feature_angle, flags.feature_angle};
 }
 
 /// Writes all outputs, each verified before it replaces anything. @return seconds spent verifying
@@ -256,7 +253,7 @@ int run(const CurveFlags& flags) {
     const std::string title = std::filesystem::path(flags.outputs.front()).filename().string();
     // Written even if the mesh is not: what is not certified wants to be looked at most of all.
     const Clock::time_point start = Clock::now();
-    write_text(flags.page, page_html(page_content(result, title), geometry.get()));
+    io::write_text(flags.page, page_html(page_content(result, title), geometry.get()));
     // The page shows the report as it was before.
     report.stages_s.emplace_back("page", seconds_since(start));
     report.total_s = seconds_since(begin);

@@ -62,8 +62,9 @@ int run(const InfoFlags& flags) {
     json["status"] = "ok";
     json["exit_code"] = 0;
     json.update(info.json);
-    write_text(flags.common.json,
-               json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    io::write_text(
+        flags.common.json,
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   }
   return 0;
 }

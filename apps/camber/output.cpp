@@ -4,8 +4,6 @@
 #include <camber/pipeline/text_report.hpp>
 #include <camber/pipeline/version.hpp>
 
-#include <fstream>
-
 #include <nlohmann/json.hpp>
 
 #include "console.hpp"
@@ -17,18 +15,9 @@ void check_report_writable(const CommonFlags& flags) {
   if (!flags.json.empty()) io::check_writable(flags.json, {.format = io::Format::gmsh});
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  io::write_atomically(path, [&](const std::string& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw FileError("cannot be written", path, "check that the disk is not full");
-  });
-}
-
 int deliver(const Report& report, const CommonFlags& flags) {
   if (!flags.is_quiet) print(text_report(report));
-  if (!flags.json.empty()) write_text(flags.json, json_report(report));
+  if (!flags.json.empty()) io::write_text(flags.json, json_report(report));
   return report.exit_code;
 }
 
@@ -42,8 +31,9 @@ void write_error_report(const CommonFlags& flags, const std::string& command,
     json["status"] = "error";
     json["exit_code"] = exit_code;
     json["error"] = message;
-    write_text(flags.json,
-               json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    io::write_text(
+        flags.json,
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } catch (...) {  // the first error has been told; this one is mostly the same again
   }
 }

@@ -10,8 +10,6 @@ namespace camber::app {
 
 /// Fails at once if the report could not be written in the end.
 void check_report_writable(const CommonFlags& flags);
-/// Replaces the file in one step.
-void write_text(const std::string& path, const std::string& text);
 /// Prints the report unless -q, writes it if --json. @return its exit code
 int deliver(const Report& report, const CommonFlags& flags);
 /// What --json holds when there is no report. Never throws: the error itself is what counts.

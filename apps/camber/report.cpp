@@ -154,11 +154,11 @@ int run(const ReportFlags& flags) {
   if (!flags.report.empty()) content.report = read_report(flags.report);
   const std::string text = page_html(content, geometry.get());
   stop_if_interrupted();
-  if (!flags.page.empty()) write_text(flags.page, text);
+  if (!flags.page.empty()) io::write_text(flags.page, text);
   if (!flags.png.empty()) {
     const ScratchPage scratch(flags.png);
     line.show("picture", 0.8);
-    if (flags.page.empty()) write_text(scratch.path(), text);
+    if (flags.page.empty()) io::write_text(scratch.path(), text);
     take_picture(browser, flags.page.empty() ? scratch.path() : flags.page, flags.view, size,
                  flags.png);
   }

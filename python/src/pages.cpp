@@ -1,8 +1,8 @@
 // Pages: one HTML file to look at a mesh.
 #include <camber/associate/cad_scale.hpp>
 #include <camber/base/error.hpp>
+#include <camber/io/mesh_file.hpp>
 #include <camber/page/page.hpp>
-#include <camber/page/write_page.hpp>
 #include <camber/pipeline/check.hpp>
 #include <camber/pipeline/surface_groups.hpp>
 
@@ -24,12 +24,12 @@ void write_run_page(const Run& run, const std::string& path) {
                                 : title_of(run.result.report.input.mesh);
   const PageContent content = page_content(run.result, title);
   if (!run.geometry) {  // without CAD: the deviations that the run measured are shown
-    write_page(page_html(content, nullptr), path);
+    io::write_text(path, page_html(content, nullptr));
     return;
   }
   const std::scoped_lock turn(run.geometry->turn);
   run.geometry->model->set_scale(run.scale);
-  write_page(page_html(content, run.geometry->model.get()), path);
+  io::write_text(path, page_html(content, run.geometry->model.get()));
 }
 
 void write_mesh_page(const MeshData& mesh, const std::string& path, Geometry* geometry,
@@ -41,7 +41,7 @@ void write_mesh_page(const MeshData& mesh, const std::string& path, Geometry* ge
     const Report report = check(mesh, nullptr, options, &findings);
     PageContent content = page_content(mesh, std::move(findings), report, nullptr);
     if (content.title.empty()) content.title = title_of(path);
-    write_page(page_html(content, nullptr), path);
+    io::write_text(path, page_html(content, nullptr));
     return;
   }
   const std::scoped_lock turn(geometry->turn);
@@ -56,7 +56,7 @@ void write_mesh_page(const MeshData& mesh, const std::string& path, Geometry* ge
   PageContent content = page_content(mesh, std::move(findings), report, by_tags);
   if (!geometry->is_cad) content.surface_groups = surface_groups_by_place(mesh, model);
   if (content.title.empty()) content.title = title_of(path);
-  write_page(page_html(content, &model), path);
+  io::write_text(path, page_html(content, &model));
 }
 
 }  // namespace

@@ -117,16 +117,11 @@ std::vector<std::pair<std::string, std::string>> shown(const py::dict& given) {
 CurveResult run_curve(const MeshData& mesh, Geometry* geometry, CurveOptions& options,
                       double feature_angle, const Progress& progress) {
   if (!geometry) {
-    FeatureOptions features;
-    features.angle = features.corner_angle = feature_angle;
-    return curve_without_cad(mesh, features, options, progress);
+    return curve_without_cad(mesh, {feature_angle, feature_angle}, options, progress);
   }
   const std::scoped_lock turn(geometry->turn);
   geometry->model->set_scale(1.0);  // as read, whatever an earlier run found
-  if (!geometry->is_cad) {
-    if (options.link_by == LinkBy::automatic) options.link_by = LinkBy::shape;
-    if (options.scale == 0.0) options.scale = 1.0;
-  }
+  if (!geometry->is_cad) link_without_cad(options);
   return curve(mesh, *geometry->model, options, progress);
 }
 

@@ -15,22 +15,9 @@ try:
 except ImportError:
     sys.exit(77)
 
+from high_order import gauss_01
+
 N = 10  # Gauss points a direction: exact for all polynomial cells
-
-
-def gauss_01(n):
-    """Points, weights and differentiation matrix of the n-point Gauss rule on [0, 1]."""
-    x, w = np.polynomial.legendre.leggauss(n)
-    x, w = 0.5 * (x + 1.0), 0.5 * w
-    a = np.array([np.prod([x[i] - x[j] for j in range(n) if j != i]) for i in range(n)])
-    d = np.zeros((n, n))
-    for i in range(n):
-        for j in range(n):
-            if i != j:
-                d[i, j] = a[i] / (a[j] * (x[i] - x[j]))
-        d[i, i] = -d[i].sum()
-    return x, w, d
-
 
 X, W, D = gauss_01(N)
 

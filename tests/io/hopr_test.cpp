@@ -16,9 +16,7 @@ namespace camber::io {
 namespace {
 
 int judge(const MeshData& uniform, int order, const std::string& path) {
-  write_sizes(uniform, scratch("sizes.txt"));
-  return run_script("read_hopr.py",
-                    path + " " + std::to_string(order) + " " + scratch("sizes.txt"));
+  return judged_by("read_hopr.py", uniform, order, path);
 }
 
 class HoprOrder : public testing::TestWithParam<int> {};

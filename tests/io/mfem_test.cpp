@@ -13,11 +13,8 @@
 namespace camber::io {
 namespace {
 
-/// The reader's verdict on a mesh of one order.
 int judge(const MeshData& uniform, int order, const std::string& path) {
-  write_sizes(uniform, scratch("sizes.txt"));
-  return run_script("read_mfem.py",
-                    path + " " + std::to_string(order) + " " + scratch("sizes.txt"));
+  return judged_by("read_mfem.py", uniform, order, path);
 }
 
 class MfemOrder : public testing::TestWithParam<int> {};

@@ -17,9 +17,7 @@ namespace camber::io {
 namespace {
 
 int judge(const MeshData& uniform, int order, const std::string& path) {
-  write_sizes(uniform, scratch("sizes.txt"));
-  return run_script("read_nektar.py",
-                    path + " " + std::to_string(order) + " " + scratch("sizes.txt"));
+  return judged_by("read_nektar.py", uniform, order, path);
 }
 
 class NektarOrder : public testing::TestWithParam<int> {};

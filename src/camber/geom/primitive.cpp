@@ -1,10 +1,9 @@
 #include <camber/base/error.hpp>
+#include <camber/base/number_list.hpp>
 #include <camber/geom/analytic_model.hpp>
 #include <camber/geom/primitive.hpp>
 
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -35,20 +34,9 @@ const Kind* kind_of(std::string_view text) {
 }
 
 std::vector<double> numbers_of(const std::string& text, const Kind& kind) {
-  std::vector<double> numbers;
-  std::string_view rest = std::string_view(text).substr(kind.name.size() + 1);
-  while (true) {
-    const std::size_t comma = rest.find(',');
-    const std::string_view word = rest.substr(0, comma);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
-      refuse(text, fmt::format("'{}' is no number", word), kind);
-    }
-    numbers.push_back(value);
-    if (comma == std::string_view::npos) break;
-    rest.remove_prefix(comma + 1);
-  }
+  const std::vector<double> numbers = comma_separated(
+      std::string_view(text).substr(kind.name.size() + 1),
+      [&](auto word) { refuse(text, fmt::format("'{}' is no number", word), kind); });
   if (numbers.size() != kind.count) {
     refuse(text, fmt::format("{} numbers, {} expected", numbers.size(), kind.count), kind);
   }

@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <new>
 
 #include <fmt/format.h>
@@ -222,6 +223,15 @@ void write_mesh(const MeshData& mesh, const std::string& path, const WriteOption
         }
         if (verify) verify(written);
       });
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  write_atomically(path, [&](const std::string& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw FileError("cannot be written", path, "check that the disk is not full");
+  });
 }
 
 }  // namespace camber::io

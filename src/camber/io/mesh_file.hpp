@@ -50,4 +50,7 @@ void write_atomically(const std::string& path,
                       const std::function<void(const std::string&)>& produce,
                       const std::function<void(const std::string&)>& verify = {});
 
+/// The same for a text: `path` is replaced in one step, or left as it was. @throws FileError
+void write_text(const std::string& path, const std::string& text);
+
 }  // namespace camber::io

@@ -1,5 +1,6 @@
 #include <camber/base/error.hpp>
 #include <camber/base/parallel.hpp>
+#include <camber/base/sorted_set.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/mesh/topology.hpp>
 
@@ -272,6 +273,17 @@ Topology build_topology(const LinearMesh& mesh) {
   build_faces(mesh, topology);
   link_patch_faces(mesh, topology);
   return topology;
+}
+
+std::vector<Index> with_neighbours(const Topology& topology, const std::vector<Index>& cells) {
+  std::vector<Index> grown = cells;
+  for (Index c : cells) {
+    for (Index e : topology.edges_of_cell(c)) {
+      for (Index other : topology.cells_of_edge(e)) grown.push_back(other);
+    }
+  }
+  make_sorted_set(grown);
+  return grown;
 }
 
 std::span<const std::array<int, 4>> face_views(Shape shape) {

@@ -53,6 +53,10 @@ struct Topology {
   [[nodiscard]] Index find_edge(Index a, Index b) const;
 };
 
+/// The cells and all that share an edge or more with one of them, sorted.
+[[nodiscard]] std::vector<Index> with_neighbours(const Topology& topology,
+                                                 const std::vector<Index>& cells);
+
 /// @throws MeshError if a face has more than two cells, a surface element is no face of any cell,
 /// or a
 ///         quadrilateral's corners are walked differently by those who share it.

@@ -63,4 +63,9 @@ std::unique_ptr<GeometryModel> make_geometry(const std::string& source,
   return reconstruct(surface_of(is_stl ? io::read_stl(source) : io::read_mesh(source)), features);
 }
 
+void link_without_cad(CurveOptions& options) {
+  if (options.link_by == LinkBy::automatic) options.link_by = LinkBy::shape;
+  if (options.scale == 0.0) options.scale = 1.0;
+}
+
 }  // namespace camber

@@ -1,5 +1,6 @@
 #pragma once
 // Geometry that is no CAD file: analytic surfaces and finer linear meshes.
+#include <camber/pipeline/options.hpp>
 #include <camber/reconstruct/reconstruct.hpp>
 
 #include <memory>
@@ -17,5 +18,9 @@ namespace camber {
 /// @throws OptionError, FileError, GeometryError
 [[nodiscard]] std::unique_ptr<GeometryModel> make_geometry(const std::string& source,
                                                            const FeatureOptions& features = {});
+
+/// What such a geometry means for a run unless the options say otherwise: it is linked by shape,
+/// in the unit of the mesh.
+void link_without_cad(CurveOptions& options);
 
 }  // namespace camber

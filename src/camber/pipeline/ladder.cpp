@@ -166,14 +166,7 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     again.insert(again.end(), bad.begin(), bad.end());
     again.insert(again.end(), to_lower.begin(), to_lower.end());
     // Cells that share no more than an edge have changed as well.
-    for (Index c : std::vector<Index>(again)) {
-      for (Index e : topology.edges_of_cell(c)) {
-        const std::span<const Index> around = topology.cells_of_edge(e);
-        again.insert(again.end(), around.begin(), around.end());
-      }
-    }
-    make_sorted_set(again);
-    bad = uncertified_cells(curved, again);
+    bad = uncertified_cells(curved, with_neighbours(topology, again));
   }
   make_sorted_set(result.lowered_faces);
   std::erase_if(result.lowered_faces, [&](Index slot) {

@@ -1,12 +1,12 @@
 #include <camber/associate/association.hpp>
 #include <camber/base/by_key.hpp>
 #include <camber/base/error.hpp>
+#include <camber/base/number_list.hpp>
 #include <camber/base/sorted_set.hpp>
 #include <camber/elevate/rescue.hpp>
 #include <camber/pipeline/periodic.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -21,19 +21,10 @@ namespace {
 constexpr double k_match = 1e-6;
 
 std::vector<double> numbers_of(const std::string& text, std::string_view list) {
-  std::vector<double> numbers;
-  while (true) {
-    const std::string_view word = list.substr(0, list.find(','));
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
-      throw OptionError(fmt::format("'{}' of '{}' is no number", word, text), "--periodic",
-                        "give dx,dy,dz or x,y,z,ax,ay,az,degrees");
-    }
-    numbers.push_back(value);
-    if (word.size() == list.size()) return numbers;
-    list.remove_prefix(word.size() + 1);
-  }
+  return comma_separated(list, [&](std::string_view word) {
+    throw OptionError(fmt::format("'{}' of '{}' is no number", word, text), "--periodic",
+                      "give dx,dy,dz or x,y,z,ax,ay,az,degrees");
+  });
 }
 
 RigidMotion rotation_about(const Vec3& point, const Vec3& axis, double angle) {

@@ -4,6 +4,7 @@
 #include <camber/metric/element_quality.hpp>
 #include <camber/pipeline/detail/report_warnings.hpp>
 #include <camber/pipeline/summary.hpp>
+#include <camber/pipeline/volume_start.hpp>
 #include <camber/smooth/polish.hpp>
 #include <camber/validity/batch.hpp>
 
@@ -286,11 +287,7 @@ void list_rescue(const CurveResult& result, const Wall& wall, const Placement& p
 
 void list_start(const StartReport& start, const LadderResult& ladder, Report& report) {
   report.start = start;
-  ElasticWork& all = report.start.elastic;
-  all.solves += ladder.elastic.solves;
-  all.unconverged += ladder.elastic.unconverged;
-  all.products += ladder.elastic.products;
-  all.largest_residual = std::max(all.largest_residual, ladder.elastic.largest_residual);
+  add_work(ladder.elastic, report.start.elastic);
 }
 
 /// Lowered wall faces that are over the deviation.

@@ -31,11 +31,17 @@ std::string_view name(Propagation propagation) {
   return "layer";
 }
 
+void add_work(const ElasticWork& more, ElasticWork& work) {
+  work.solves += more.solves;
+  work.unconverged += more.unconverged;
+  work.products += more.products;
+  work.largest_residual = std::max(work.largest_residual, more.largest_residual);
+}
+
 void add_solve(const ElasticResult& solve, ElasticWork& work) {
-  ++work.solves;
-  work.unconverged += solve.is_converged ? 0U : 1U;
-  work.products += static_cast<std::size_t>(solve.products);
-  work.largest_residual = std::max(work.largest_residual, solve.residual);
+  add_work(
+      {1, solve.is_converged ? 0U : 1U, static_cast<std::size_t>(solve.products), solve.residual},
+      work);
 }
 
 VolumeStart::VolumeStart(CurvedMesh& curved, const LayerField& asked, const LayerField& layers,

@@ -14,7 +14,8 @@ namespace camber {
 /// "layer", "elastic" or "cell", as --propagate names them.
 [[nodiscard]] std::string_view name(Propagation propagation);
 
-/// Adds one elastic solve to the work of a run.
+/// Adds the work of some solves, or one solve, to that of a run.
+void add_work(const ElasticWork& more, ElasticWork& work);
 void add_solve(const ElasticResult& solve, ElasticWork& work);
 
 /// The start asked for, certified; replaced where it is tangled; repeated where the wall changes.
@@ -39,7 +40,6 @@ class VolumeStart {
   /// taken; returns all cells that it may have changed, sorted.
   std::vector<Index> carry(const std::vector<Index>& cells);
 
-  [[nodiscard]] Propagation taken() const { return taken_; }
   [[nodiscard]] const std::vector<Index>& uncertified() const { return uncertified_; }
   /// For Report::start.
   [[nodiscard]] StartReport report() const;

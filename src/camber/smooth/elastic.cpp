@@ -52,7 +52,7 @@ ElasticResult relax_elastic_around(CurvedMesh& curved, const std::vector<Index>&
                                    const ElasticOptions& options) {
   std::vector<Index> grown = core;
   for (int ring = 0; ring < rings && grown.size() < k_enough_around; ++ring) {
-    grown = detail::neighbours(curved.topology(), grown);
+    grown = with_neighbours(curved.topology(), grown);
   }
   return relax_elastic(curved, detail::curved_neighbours(curved, grown),
                        detail::nodes_of(curved, grown, is_free), options);

@@ -200,7 +200,7 @@ UntangleResult untangle(CurvedMesh& curved, const std::vector<Index>& uncertifie
     std::vector<Index> around;
     std::vector<std::uint8_t> is_own;
     for (int ring = 0; ring < options.rings && !is_repaired && allowance > 0; ++ring) {
-      core = detail::neighbours(curved.topology(), core);
+      core = with_neighbours(curved.topology(), core);
       std::vector<Index> touched = detail::curved_neighbours(curved, core);
       if (touched.size() > options.max_cells) break;
       around = std::move(touched);

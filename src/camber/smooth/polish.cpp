@@ -182,7 +182,7 @@ PolishResult polish(CurvedMesh& curved, const std::vector<std::uint8_t>& is_free
     if (listener) listener(result.rows.back());
   };
   for (int ring = 1; ring < options.rings; ++ring) {
-    grown = detail::neighbours(curved.topology(), grown);
+    grown = with_neighbours(curved.topology(), grown);
   }
   for (const std::vector<Index>& core : detail::connected_groups(curved.topology(), grown)) {
     if (core.size() > options.max_cells) continue;

@@ -38,12 +38,6 @@ FacetBody::FacetBody(const FacetMesh& mesh, Features found)
   for (const ChainCurve& curve : curves) trees.emplace_back(curve);
   for (const Chain& chain : features.chains) {
     is_straight.push_back(is_chain_straight(mesh, chain));
-    const FacetEdge& edge = features.edges[at(chain.edges.front())];
-    std::array<int, 2> regions{-1, -1};
-    for (std::size_t side = 0; side < 2; ++side) {
-      if (edge.facet[side] != k_none) regions[side] = features.region[at(edge.facet[side])];
-    }
-    chain_regions.push_back(regions);
   }
   for (Index v : features.corners) corners.push_back(mesh.points[at(v)]);
 }
@@ -96,8 +90,11 @@ Box FacetModel::box(GeomEntity entity) const {
 }
 
 bool FacetModel::is_seam(int curve, int face) const {
-  const std::array<int, 2>& regions = body_->chain_regions[place(1, curve)];
-  return regions[0] == face - 1 && regions[1] == face - 1;
+  const Chain& chain = body_->features.chains[place(1, curve)];
+  const std::array<Index, 2>& sides = body_->features.edges[at(chain.edges.front())].facet;
+  return std::all_of(sides.begin(), sides.end(), [&](Index f) {
+    return f != k_none && body_->features.region[at(f)] == face - 1;
+  });
 }
 
 bool FacetModel::is_planar(int face) const {

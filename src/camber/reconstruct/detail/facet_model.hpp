@@ -15,11 +15,10 @@ struct FacetBody {
   Features features;
   std::vector<ChainCurve> curves;
   FacetSet facets;
-  std::vector<std::array<int, 2>> chain_regions;  // of the facets on both sides; -1: none
-  std::vector<std::array<Index, 4>> corner_of;    // facet -> vertices, [3] = -1 for triangles
-  std::vector<CurveTree> trees;                   // of the curves
-  std::vector<std::uint8_t> is_straight;          // by curve
-  Points corners;                                 // of the features
+  std::vector<std::array<Index, 4>> corner_of;  // facet -> vertices, [3] = -1 for triangles
+  std::vector<CurveTree> trees;                 // of the curves
+  std::vector<std::uint8_t> is_straight;        // by curve
+  Points corners;                               // of the features
 };
 
 class FacetModel final : public ReconstructedModel {

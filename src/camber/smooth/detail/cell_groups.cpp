@@ -8,19 +8,8 @@
 
 namespace camber::detail {
 
-std::vector<Index> neighbours(const Topology& topology, const std::vector<Index>& cells) {
-  std::vector<Index> grown = cells;
-  for (Index c : cells) {
-    for (Index e : topology.edges_of_cell(c)) {
-      for (Index other : topology.cells_of_edge(e)) grown.push_back(other);
-    }
-  }
-  make_sorted_set(grown);
-  return grown;
-}
-
 std::vector<Index> curved_neighbours(const CurvedMesh& curved, const std::vector<Index>& cells) {
-  std::vector<Index> around = neighbours(curved.topology(), cells);
+  std::vector<Index> around = with_neighbours(curved.topology(), cells);
   std::erase_if(around, [&](Index c) { return curved.cell_order(c) < 2; });
   return around;
 }

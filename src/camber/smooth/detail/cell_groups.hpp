@@ -7,10 +7,7 @@
 
 namespace camber::detail {
 
-/// The cells and all that share an edge with one of them, sorted.
-[[nodiscard]] std::vector<Index> neighbours(const Topology& topology,
-                                            const std::vector<Index>& cells);
-/// The same without cells of order 1: all curved cells that depend on nodes of the cells.
+/// with_neighbours() without cells of order 1: all curved cells that depend on nodes of the cells.
 [[nodiscard]] std::vector<Index> curved_neighbours(const CurvedMesh& curved,
                                                    const std::vector<Index>& cells);
 /// Calls visit(first, count) for the high-order nodes of each edge, face and inside of a cell.
