@@ -63,11 +63,13 @@ endfunction()
 function(camber_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE camber_warnings camber_build ${ARG_LIBRARIES}
+  target_link_libraries(${name} PRIVATE camber_warnings camber_build camber_test_build ${ARG_LIBRARIES}
     GTest::gtest GTest::gtest_main GTest::gmock)
-  target_compile_definitions(${name} PRIVATE
-    CAMBER_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    CAMBER_SHARED_CASES="${PROJECT_SOURCE_DIR}/../shared/cases")
+  # Each test file has helpers of its own; their names repeat.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  if(CAMBER_ONE_BUILD)
+    target_precompile_headers(${name} REUSE_FROM camber_test_headers)
+  endif()
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()

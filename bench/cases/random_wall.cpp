@@ -12,7 +12,7 @@
 namespace camber::testing {
 namespace {
 
-constexpr int k_poles = 13;
+constexpr int k_wall_poles = 13;
 /// Of a bump: height over radius. Steeper ones turn by more than a face can follow.
 constexpr double k_steepest = 0.3;
 /// Layers along normals end before the centres of curvature: radius^2 / (2 height), radius >= 0.15.
@@ -45,7 +45,7 @@ BsplineSurface random_wall(Dice& dice) {
   }
   const auto height = [&](double x, double y) {
     // Two rows of poles at the border stay: the wall meets its side planes at right angles.
-    constexpr double border = 0.5 / (k_poles - 3);
+    constexpr double border = 0.5 / (k_wall_poles - 3);
     if (std::min({x, y, 1.0 - x, 1.0 - y}) < border) return 0.0;
     double sum = 0.0;
     for (const Bump& b : bumps) {
@@ -54,7 +54,7 @@ BsplineSurface random_wall(Dice& dice) {
     }
     return sum;
   };
-  return bump(height, k_poles);
+  return bump(height, k_wall_poles);
 }
 
 /// n x n quadrilaterals, inner vertices moved by up to a quarter of the spacing, cut along either

@@ -2,8 +2,8 @@
 // Exact keys for entities known by their corner vertices.
 #include <camber/base/ids.hpp>
 
-#include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <functional>
 
@@ -21,8 +21,11 @@ template <class Range>
 [[nodiscard]] CornerKey corner_key(const Range& corners) {
   CornerKey key;
   std::size_t n = 0;
-  for (Index c : corners) key.v[n++] = c;
-  std::sort(key.v.begin(), key.v.begin() + static_cast<std::ptrdiff_t>(n));
+  for (Index c : corners) {  // insertion: four entries at most
+    std::size_t place = n++;
+    for (; place > 0 && key.v[place - 1] > c; --place) key.v[place] = key.v[place - 1];
+    key.v[place] = c;
+  }
   return key;
 }
 

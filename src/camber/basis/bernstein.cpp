@@ -9,8 +9,6 @@
 namespace camber {
 namespace {
 
-constexpr std::size_t k_fast_keys = static_cast<std::size_t>(k_shape_count) * 32;
-
 using Barycentric = std::array<int, 4>;  // exponents or lattice coordinates; corner 0 first
 
 void require_simplex(Shape shape, int n) {
@@ -39,7 +37,7 @@ using Linear = std::array<long double, 4>;
 /// [n][d]: place in lattice (shape, degree + 1) of point n of (shape, degree) with its exponent of
 /// l_d raised by one.
 const std::vector<std::array<int, 4>>& raised_places(Shape shape, int degree) {
-  static detail::Cache<std::vector<std::array<int, 4>>, k_fast_keys> cache;
+  static detail::Cache<std::vector<std::array<int, 4>>, detail::k_fast_keys> cache;
   return cache.get(detail::cache_key(shape, degree), [&] {
     std::vector<std::array<int, 4>> places;
     for (const LatticePoint& point : lattice(shape, degree)) {
@@ -159,7 +157,7 @@ std::vector<std::array<Vec3, 4>> make_children(Shape shape) {
 }  // namespace
 
 const MatX& bernstein_from_lattice(Shape shape, int n) {
-  static detail::Cache<MatX, k_fast_keys> cache;
+  static detail::Cache<MatX, detail::k_fast_keys> cache;
   require_simplex(shape, n);
   return cache.get(detail::cache_key(shape, n), [&] { return make_from_lattice(shape, n); });
 }
@@ -196,7 +194,7 @@ std::span<const std::array<Vec3, 4>> bernstein_children(Shape shape) {
 }
 
 std::span<const MatX> bernstein_subdivision(Shape shape, int n) {
-  static detail::Cache<std::vector<MatX>, k_fast_keys> cache;
+  static detail::Cache<std::vector<MatX>, detail::k_fast_keys> cache;
   require_simplex(shape, n);
   return cache.get(detail::cache_key(shape, n), [&] {
     std::vector<MatX> matrices;

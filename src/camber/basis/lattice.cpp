@@ -9,8 +9,6 @@
 namespace camber {
 namespace {
 
-constexpr std::size_t k_fast_keys = static_cast<std::size_t>(k_shape_count) * 32;
-
 void require_order(int p, int lowest) {
   if (p < lowest || p > k_max_lattice_order) {
     throw std::invalid_argument("order " + std::to_string(p) + " is outside " +
@@ -132,13 +130,13 @@ int node_count(Shape shape, int p) {
 }
 
 std::span<const LatticePoint> lattice(Shape shape, int p) {
-  static detail::Cache<std::vector<LatticePoint>, k_fast_keys> cache;
+  static detail::Cache<std::vector<LatticePoint>, detail::k_fast_keys> cache;
   require_order(p, 0);
   return cache.get(detail::cache_key(shape, p), [&] { return make_lattice(shape, p); });
 }
 
 std::span<const Vec3> lattice_xi(Shape shape, int p) {
-  static detail::Cache<Points, k_fast_keys> cache;
+  static detail::Cache<Points, detail::k_fast_keys> cache;
   require_order(p, 0);
   return cache.get(detail::cache_key(shape, p), [&] {
     if (p == 0) return Points{reference_centroid(shape)};
@@ -177,7 +175,7 @@ int lattice_index(Shape shape, int p, const LatticePoint& point) {
 }
 
 const LatticeMap& lattice_map(Shape shape, int p) {
-  static detail::Cache<LatticeMap, k_fast_keys> cache;
+  static detail::Cache<LatticeMap, detail::k_fast_keys> cache;
   require_order(p, 1);
   return cache.get(detail::cache_key(shape, p), [&] { return make_lattice_map(shape, p); });
 }

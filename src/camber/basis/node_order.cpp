@@ -186,7 +186,7 @@ Order make_order(NodeConvention convention, Shape shape, int p) {
 }
 
 constexpr int k_conventions = 4;
-constexpr std::size_t k_fast_keys = static_cast<std::size_t>(k_shape_count * k_conventions) * 16;
+constexpr std::size_t k_fast_orders = static_cast<std::size_t>(k_shape_count * k_conventions) * 16;
 
 std::size_t key(NodeConvention convention, Shape shape, int p) {
   return detail::cache_key(shape, p * k_conventions + static_cast<int>(convention));
@@ -204,13 +204,13 @@ void require_known(NodeConvention convention, Shape shape, int p) {
 }  // namespace
 
 std::span<const LatticePoint> node_order(NodeConvention convention, Shape shape, int p) {
-  static detail::Cache<Order, k_fast_keys> cache;
+  static detail::Cache<Order, k_fast_orders> cache;
   require_known(convention, shape, p);
   return cache.get(key(convention, shape, p), [&] { return make_order(convention, shape, p); });
 }
 
 std::span<const int> file_to_canonical(NodeConvention convention, Shape shape, int p) {
-  static detail::Cache<std::vector<int>, k_fast_keys> cache;
+  static detail::Cache<std::vector<int>, k_fast_orders> cache;
   require_known(convention, shape, p);
   return cache.get(key(convention, shape, p), [&] {
     std::vector<int> map;

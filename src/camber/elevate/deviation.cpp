@@ -7,11 +7,7 @@
 #include <algorithm>
 
 namespace camber {
-namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 Deviation measure_face(Projector& projector, const GeometryGroup& group, Shape shape, int q,
                        std::span<const Vec3> nodes, const WallCorner* seed) {

@@ -10,8 +10,6 @@
 namespace camber {
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 /// A still plane damps the normal displacement of points nearer to it than this many wall
 /// distances.
 constexpr double k_plane_range = 2.0;

@@ -7,11 +7,7 @@
 #include <algorithm>
 
 namespace camber {
-namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<Index> Placement::lower(const std::vector<std::pair<Index, int>>& caps) {
   std::vector<Index> edges, changed;

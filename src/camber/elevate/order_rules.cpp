@@ -11,8 +11,6 @@
 namespace camber {
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 constexpr std::size_t k_grain = 1024;
 
 /// An entity that moves by less than this share of what may be missed can stay straight.

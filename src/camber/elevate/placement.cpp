@@ -19,8 +19,6 @@ constexpr double k_longest_stretch = 4.0;
 /// Share of the longest edge that a node may move onto the CAD.
 constexpr double k_reach = 2.0;
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 /// Parameters of the two ends of a mesh edge on its curve, the short way round on closed curves.
 std::optional<std::array<double, 2>> stretch_on_curve(Projector& projector,
                                                       const GeometryModel& model, int curve,

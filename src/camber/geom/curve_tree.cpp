@@ -8,13 +8,13 @@
 namespace camber {
 namespace {
 
-constexpr int k_max_depth = 16;
+constexpr int k_curve_depth = 16;
 constexpr double k_straight_cosine = 0.9;
 // Halving a piece must not change its length by more than this part of the curve.
 constexpr double k_length_error = 2e-15;
 // Pieces shorter than this part of the curve may turn as they like.
-constexpr double k_short = 1e-4;
-constexpr double k_round_off = 2e-16;
+constexpr double k_short_piece = 1e-4;
+constexpr double k_length_round_off = 2e-16;
 constexpr std::size_t k_points = 8;
 
 struct GaussRule {
@@ -89,7 +89,7 @@ void CurveTree::split(double t0, double t1, double rough, int depth) {
   const bool is_straight =
       cosine(a.ct, m.ct) > k_straight_cosine && cosine(m.ct, b.ct) > k_straight_cosine;
   const bool is_exact = std::abs(whole - halves) <= k_length_error * rough;
-  if ((!is_exact || (!is_straight && halves > k_short * rough)) && depth < k_max_depth) {
+  if ((!is_exact || (!is_straight && halves > k_short_piece * rough)) && depth < k_curve_depth) {
     split(t0, middle, rough, depth + 1);
     split(middle, t1, rough, depth + 1);
     return;
@@ -159,7 +159,7 @@ double CurveTree::parameter_at(double target) const {
       low + (high - low) * std::clamp(piece->length > 0.0 ? wanted / piece->length : 0.5, 0.0, 1.0);
   for (int iteration = 0; iteration < 60; ++iteration) {
     const double error = stretch(piece->t0, t) - wanted;
-    if (std::abs(error) <= k_round_off * whole) break;
+    if (std::abs(error) <= k_length_round_off * whole) break;
     (error > 0.0 ? high : low) = t;
     const double speed = curve_.jet(t).ct.norm();
     const double newton = speed > 0.0 ? t - error / speed : low;

@@ -13,16 +13,16 @@ constexpr double k_quadratic_step = 1e-8;
 // Steps below this (of the size) are round-off of the evaluation.
 constexpr double k_smallest_step = 1e-14;
 // A derivative this much shorter than the other one, per parameter range, is a pole.
-constexpr double k_singular = 1e-12;
+constexpr double k_vanishing = 1e-12;
 // Eigenvalues of the scaled Hessian (1 near the surface) below this part of the larger one are
 // raised to it.
 constexpr double k_least_curvature = 1e-3;
 // Round-off of a point, relative to the coordinates that it was computed from.
-constexpr double k_round_off = 1e-15;
+constexpr double k_noise = 1e-15;
 
 /// Growth of a squared distance that round-off of its points explains.
 struct Noise {
-  Noise(const Vec3& x, double size) : point(k_round_off * (size + x.norm())) {}
+  Noise(const Vec3& x, double size) : point(k_noise * (size + x.norm())) {}
   double operator()(double squared) const { return point * (std::sqrt(squared) + point); }
   double point;
 };
@@ -74,7 +74,7 @@ Step model_step(const Local& l, const Across& across, const Vec2& uv, const UvBo
   const Vec2 range = limits.upper - limits.lower;
   const double E = a.squaredNorm(), F = a.dot(b), G = b.squaredNorm();
   const double su = E * range[0] * range[0], sv = G * range[1] * range[1];
-  bool is_free[2] = {su > k_singular * k_singular * sv, sv > k_singular * k_singular * su};
+  bool is_free[2] = {su > k_vanishing * k_vanishing * sv, sv > k_vanishing * k_vanishing * su};
   for (int k = 0; k < 2; ++k) {
     if (periods[k] > 0.0) continue;
     if ((uv[k] <= limits.lower[k] && gradient[k] >= 0.0) ||

@@ -7,7 +7,7 @@ namespace camber {
 namespace {
 
 /// A cross product shorter than this part of its factors' square has lost its direction.
-constexpr double k_singular = 1e-9;
+constexpr double k_no_normal = 1e-9;
 /// Step from a singular point into the surface, as a part of the parameter range.
 constexpr double k_inwards = 1e-4;
 /// Normals around a regular pole agree to the order of that step times the turning of the surface.
@@ -18,7 +18,7 @@ Vec3 regular_normal(const SurfaceJet& jet, const Vec2& range) {
   const Vec3 a = jet.su * range[0], b = jet.sv * range[1];
   const Vec3 n = a.cross(b);
   const double length = n.norm(), scale = std::max(a.squaredNorm(), b.squaredNorm());
-  return length > k_singular * scale ? Vec3(n / length) : Vec3::Zero();
+  return length > k_no_normal * scale ? Vec3(n / length) : Vec3::Zero();
 }
 
 }  // namespace

@@ -7,16 +7,16 @@
 namespace camber {
 namespace {
 
-constexpr int k_max_depth = 14;
+constexpr int k_surface_depth = 14;
 // Patches shorter than this part of the surface are left as they are (fans around poles).
-constexpr double k_short = 2e-3;
+constexpr double k_short_patch = 2e-3;
 constexpr std::size_t k_max_patches = 60000;
 constexpr double k_flat_cosine = 0.97;  // 14 degrees between samples, 28 over a patch
 // Fewest patches a direction: three samples of a whole wave would see nothing of it.
 constexpr std::size_t k_min_cuts = 4;
 // Derivatives shorter than this part of the patch's longest, and normals likewise, tell no
 // direction (poles).
-constexpr double k_singular = 1e-6;
+constexpr double k_no_length = 1e-6;
 
 using Samples = std::array<std::array<SurfaceJet, 3>, 3>;
 
@@ -35,14 +35,14 @@ Vec2 turning(const Samples& j) {
     const double la = a.norm(), lb = b.norm();
     return la > tiny && lb > tiny ? a.dot(b) / (la * lb) : 1.0;
   };
-  const double tiny = k_singular * longest_u * longest_v;
+  const double tiny = k_no_length * longest_u * longest_v;
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t b = 0; b < 2; ++b) {
       const SurfaceJet &u0 = j[b][a], &u1 = j[b + 1][a], &v0 = j[a][b], &v1 = j[a][b + 1];
       cosine[0] = std::min({cosine[0], angle(u0.su.cross(u0.sv), u1.su.cross(u1.sv), tiny),
-                            angle(u0.su, u1.su, k_singular * longest_u)});
+                            angle(u0.su, u1.su, k_no_length * longest_u)});
       cosine[1] = std::min({cosine[1], angle(v0.su.cross(v0.sv), v1.su.cross(v1.sv), tiny),
-                            angle(v0.sv, v1.sv, k_singular * longest_v)});
+                            angle(v0.sv, v1.sv, k_no_length * longest_v)});
     }
   }
   return cosine;
@@ -106,8 +106,8 @@ void SurfaceTree::split(const UvBox& uv, int depth) {
   for (const auto& row : j)
     for (const SurfaceJet& sample : row) box.add(sample.s);
   const Vec2 cosine = turning(j);
-  if (cosine.minCoeff() < k_flat_cosine && depth < k_max_depth &&
-      box.diagonal() > k_short * size_ && patches_.size() < k_max_patches) {
+  if (cosine.minCoeff() < k_flat_cosine && depth < k_surface_depth &&
+      box.diagonal() > k_short_patch * size_ && patches_.size() < k_max_patches) {
     const int axis = cosine[0] < cosine[1] ? 0 : 1;
     UvBox left = uv, right = uv;
     left.upper[axis] = right.lower[axis] = middle[axis];

@@ -18,8 +18,6 @@ namespace {
 /// of its size: far above rounding, far below any gap that matters.
 constexpr double k_same = 1e-10;
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 /// Nodes strictly inside an edge or face, in a frame that all its elements agree on.
 struct Entity {
   CornerKey key;

@@ -11,8 +11,6 @@ namespace {
 using Row = std::vector<NodeMap::Entry>;
 using Rows = std::vector<Row>;
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 /// Coefficients of an exact elevation below this are rounding.
 constexpr double k_zero_coefficient = 1e-14;
 

@@ -10,9 +10,7 @@
 namespace camber {
 namespace {
 
-constexpr std::size_t k_grain = 512;
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t k_raise_grain = 512;
 
 }  // namespace
 
@@ -33,7 +31,7 @@ void limit_order_jumps(const Topology& topology, std::vector<std::uint8_t>& cell
 CurvedMesh raise_orders(const CurvedMesh& curved, std::vector<std::uint8_t> cell_orders) {
   const Topology& topology = curved.topology();
   CurvedMesh raised(curved.linear(), topology, minimum_rule(topology, std::move(cell_orders)));
-  parallel_for(topology.edge_count(), k_grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(topology.edge_count(), k_raise_grain, [&](std::size_t begin, std::size_t end) {
     std::array<Vec3, 8> all;
     for (std::size_t i = begin; i < end; ++i) {
       const Index e = static_cast<Index>(i);
@@ -43,7 +41,7 @@ CurvedMesh raise_orders(const CurvedMesh& curved, std::vector<std::uint8_t> cell
       std::copy_n(all.begin() + 1, own.size(), own.begin());
     }
   });
-  parallel_for(topology.face_count(), k_grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(topology.face_count(), k_raise_grain, [&](std::size_t begin, std::size_t end) {
     std::array<Vec3, 49> all;
     for (std::size_t i = begin; i < end; ++i) {
       const Index f = static_cast<Index>(i);
@@ -55,19 +53,20 @@ CurvedMesh raise_orders(const CurvedMesh& curved, std::vector<std::uint8_t> cell
       for (std::size_t k = 0; k < own.size(); ++k) own[k] = all[sz(inner[k])];
     }
   });
-  parallel_for(curved.linear().cell_count(), k_grain, [&](std::size_t begin, std::size_t end) {
-    Points all;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index c = static_cast<Index>(i);
-      const std::span<Vec3> own = raised.cell_nodes(c);
-      CAMBER_ASSERT(raised.cell_order(c) >= curved.cell_order(c), "orders are only raised");
-      if (own.empty()) continue;
-      const int q = raised.cell_order(c);
-      curved.gather(c, q, all);
-      const std::vector<int>& inner = lattice_map(curved.linear().cell_shape[i], q).interior;
-      for (std::size_t k = 0; k < own.size(); ++k) own[k] = all[sz(inner[k])];
-    }
-  });
+  parallel_for(
+      curved.linear().cell_count(), k_raise_grain, [&](std::size_t begin, std::size_t end) {
+        Points all;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Index c = static_cast<Index>(i);
+          const std::span<Vec3> own = raised.cell_nodes(c);
+          CAMBER_ASSERT(raised.cell_order(c) >= curved.cell_order(c), "orders are only raised");
+          if (own.empty()) continue;
+          const int q = raised.cell_order(c);
+          curved.gather(c, q, all);
+          const std::vector<int>& inner = lattice_map(curved.linear().cell_shape[i], q).interior;
+          for (std::size_t k = 0; k < own.size(); ++k) own[k] = all[sz(inner[k])];
+        }
+      });
   return raised;
 }
 
@@ -92,7 +91,7 @@ double largest_gap(const CurvedMesh& curved) {
   const std::size_t cells = curved.linear().cell_count();
   std::vector<double> gap(cells, 0.0);  // on the faces that the cell is the first of
   // By cell, so that its nodes are gathered once for all its faces.
-  parallel_for(cells, k_grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(cells, k_raise_grain, [&](std::size_t begin, std::size_t end) {
     Points own, other;
     std::array<Points, 2> seen;
     for (std::size_t i = begin; i < end; ++i) {

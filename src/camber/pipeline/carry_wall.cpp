@@ -7,8 +7,6 @@
 namespace camber {
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 /// The polynomial of order r through the nodes at the lattice of order q: the same one for q >= r,
 /// sampled for q < r.
 Points at_order(Shape shape, int r, int q, std::span<const Vec3> nodes) {

@@ -15,14 +15,8 @@
 namespace camber {
 namespace {
 
-constexpr std::size_t k_worst_listed = 10;
 /// Cost under which a cell counts as below the quality target (the paper's convergence threshold).
 constexpr int k_highest_certified = 8;  // order that certify() takes
-
-void put(Histogram& histogram, double value) {
-  const double bin = std::clamp(value * k_histogram_bins, 0.0, k_histogram_bins - 1.0);
-  ++histogram[static_cast<std::size_t>(bin)];
-}
 
 void count_cells(const MeshData& data, const ElementList& cells, Report& report) {
   report.input.mesh = data.source;
@@ -70,7 +64,7 @@ void certify_cells(const ElementList& cells, Report& report, CellFindings* findi
     validity.undecided += b.verdict == Verdict::undecided;
     validity.min_scaled_jacobian = std::min(validity.min_scaled_jacobian, b.scaled_jacobian);
     validity.min_jacobian_ratio = std::min(validity.min_jacobian_ratio, b.jacobian_ratio);
-    put(report.quality.scaled_jacobian, b.scaled_jacobian);
+    count_in(report.quality.scaled_jacobian, b.scaled_jacobian);
   }
   std::vector<std::size_t> worst(n);
   std::iota(worst.begin(), worst.end(), std::size_t{0});
@@ -102,7 +96,7 @@ void measure_quality(const ElementList& cells, Report& report, CellFindings* fin
   });
   auto& quality = report.quality;
   for (double c : cost) {
-    put(quality.cost, c);
+    count_in(quality.cost, c);
     quality.minimum = std::min(quality.minimum, c);
     quality.below_target += c < quality.target;
   }

@@ -2,6 +2,7 @@
 // What a run found and did: the data behind the text report and the --json file (see docs/report).
 #include <camber/smooth/smooth_row.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -13,6 +14,14 @@ namespace camber {
 
 inline constexpr int k_histogram_bins = 10;  // of [0,1]
 using Histogram = std::array<std::size_t, k_histogram_bins>;
+
+/// Counts a value of [0, 1]; what lies outside goes to the first or last bin.
+inline void count_in(Histogram& histogram, double value) {
+  const double bin = std::clamp(value * k_histogram_bins, 0.0, k_histogram_bins - 1.0);
+  ++histogram[static_cast<std::size_t>(bin)];
+}
+
+inline constexpr std::size_t k_worst_listed = 10;  // cells named in the report
 
 struct WorstCell {
   GlobalId cell = 0;

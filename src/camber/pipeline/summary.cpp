@@ -21,12 +21,6 @@ namespace camber {
 namespace {
 
 constexpr double k_spacing_limit = 0.01;
-constexpr std::size_t k_worst_listed = 10;
-
-void put(Histogram& histogram, double value) {
-  const int bin = std::clamp(static_cast<int>(value * k_histogram_bins), 0, k_histogram_bins - 1);
-  ++histogram[static_cast<std::size_t>(bin)];
-}
 
 Vec3 centre_of(const LinearMesh& mesh, Index c) {
   Vec3 centre = Vec3::Zero();
@@ -68,8 +62,8 @@ void certify_cells(CurveResult& result, Report& report) {
         std::min(report.validity.min_scaled_jacobian, b.scaled_jacobian);
     report.validity.min_jacobian_ratio =
         std::min(report.validity.min_jacobian_ratio, b.jacobian_ratio);
-    put(report.quality.scaled_jacobian, b.scaled_jacobian);
-    put(report.quality.cost, result.cell_cost[i]);
+    count_in(report.quality.scaled_jacobian, b.scaled_jacobian);
+    count_in(report.quality.cost, result.cell_cost[i]);
     report.quality.minimum = std::min(report.quality.minimum, result.cell_cost[i]);
     report.quality.below_target += result.cell_cost[i] < report.quality.target;
     sum += result.cell_cost[i];

@@ -18,7 +18,7 @@ constexpr std::size_t k_line = 96;
 std::string number(double value) { return fmt::format("{:.3g}", value); }
 std::string number(std::size_t value) { return fmt::format("{}", value); }
 
-std::string place(const Vec3& x) {
+std::string short_place(const Vec3& x) {
   return fmt::format("({:.5g}, {:.5g}, {:.5g})", x.x(), x.y(), x.z());
 }
 
@@ -118,7 +118,7 @@ void add_validity(const Report& report, std::string& out) {
   table.add({"lowest", "cell", "order", "scaled Jacobian", "centre"});
   for (const WorstCell& cell : v.worst) {
     table.add({std::string(name(cell.shape)), fmt::format("{}", cell.cell),
-               fmt::format("Q{}", cell.order), number(cell.lower_bound), place(cell.centre)});
+               fmt::format("Q{}", cell.order), number(cell.lower_bound), short_place(cell.centre)});
   }
   if (!v.worst.empty()) out += table.text();
 }
@@ -305,7 +305,7 @@ void add_rescue(const Report& report, std::string& out) {
   places.resize(std::min(places.size(), k_places_listed));
   for (const RescuePlace& p : places) {
     table.add({std::string(name(p.shape)), fmt::format("{}", p.cell), number(p.distance),
-               place(p.centre), p.reason});
+               short_place(p.centre), p.reason});
   }
   if (!r.places.empty()) out += table.text();
   if (r.places.size() > k_places_listed) {
@@ -326,7 +326,7 @@ void add_smooth(const Report& report, std::string& out) {
     const SmoothRow& row = rows[listed == 1 ? 0 : i * (all - 1) / (listed - 1)];
     table.add({row.stage, fmt::format("{}", row.pass), fmt::format("{}", row.iteration),
                number(row.active_nodes), number(row.negative_elements),
-               number(row.elevated_elements), number(row.worst_cost), place(row.place),
+               number(row.elevated_elements), number(row.worst_cost), short_place(row.place),
                fmt::format("{} {} Q{}", name(row.shape), row.element, row.order)});
   }
   out += table.text();

@@ -9,8 +9,6 @@
 namespace camber::reference {
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 /// Lattice nodes of a sub-simplex; the fourth is -1 in the plane.
 using Simplex = std::array<int, 4>;
 

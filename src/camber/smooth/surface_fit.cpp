@@ -10,9 +10,9 @@
 namespace camber {
 namespace {
 
-constexpr int k_iterations = 30;
+constexpr int k_fit_iterations = 30;
 constexpr double k_gradient_tolerance = 1e-3;
-constexpr double k_longest_step = 0.5;
+constexpr double k_longest_fit_step = 0.5;
 /// k: a strain of 1 is worth this share of a face's squared distance.
 constexpr double k_slide_weight = 0.1;
 /// b: only there to be infinite where a face folds.
@@ -38,9 +38,9 @@ SurfaceFit fit_surface(SurfacePatch& patch, const OnSurface& on_surface,
   shape.add_stiffness(stiffness);
   const VecX inverse_diagonal = sliding.inverse_diagonal(stiffness);
   LbfgsOptions options;
-  options.max_iterations = k_iterations;
+  options.max_iterations = k_fit_iterations;
   options.gradient_tolerance = k_gradient_tolerance;
-  options.longest_step = k_longest_step;
+  options.longest_step = k_longest_fit_step;
   VecX t = VecX::Zero(sliding.size());
   const auto value = [&](const VecX& y, VecX& gradient) {
     const Points& x = sliding.place(y);

@@ -10,12 +10,12 @@ namespace camber {
 namespace {
 
 constexpr int k_rounds = 16;
-constexpr int k_iterations = 40;
+constexpr int k_surface_iterations = 40;
 /// tau that every sample must reach for the patch to count as repaired.
 constexpr double k_clear = 0.02;
-constexpr double k_least_delta = 0.05;
-constexpr double k_delta_shrink = 0.7;
-constexpr double k_longest_step = 0.5;
+constexpr double k_surface_least_delta = 0.05;
+constexpr double k_surface_delta_shrink = 0.7;
+constexpr double k_longest_slide = 0.5;
 
 }  // namespace
 
@@ -27,14 +27,14 @@ bool smooth_surface(SurfacePatch& patch, const OnSurface& on_surface) {
   energy.add_stiffness(stiffness);
   const VecX inverse_diagonal = sliding.inverse_diagonal(stiffness);
   LbfgsOptions options;
-  options.max_iterations = k_iterations;
-  options.longest_step = k_longest_step;
+  options.max_iterations = k_surface_iterations;
+  options.longest_step = k_longest_slide;
   VecX t = VecX::Zero(sliding.size());
   double least = energy.least_tau(sliding.place(t));
   for (int round = 0; round < k_rounds; ++round) {
     const double delta = least > 0.0 ? 0.0
-                                     : std::max(k_least_delta, 0.3 * std::abs(least)) *
-                                           std::pow(k_delta_shrink, round);
+                                     : std::max(k_surface_least_delta, 0.3 * std::abs(least)) *
+                                           std::pow(k_surface_delta_shrink, round);
     const auto value = [&](const VecX& y, VecX& gradient) {
       Points slope(patch.nodes.size(), Vec3::Zero());
       const double e = energy.evaluate(sliding.place(y), delta, slope);

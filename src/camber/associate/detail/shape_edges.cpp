@@ -11,7 +11,7 @@ namespace {
 
 /// The ends of an edge on a curve are nearer to it than this share of the edge, or within the CAD's
 /// own tolerance: a seam passes between mesh edges that do not follow it.
-constexpr double k_close_share = 1e-4;
+constexpr double k_on_curve_share = 1e-4;
 /// Ends of an edge between two CAD faces: these faces say already that it is on a common curve.
 constexpr double k_between_share = 1e-1;
 /// |cosine| between the edge and the curve's tangent at its ends: a chord across a ring's opening
@@ -88,7 +88,7 @@ class EdgeLinker {
         if (is_within && !is_inner(curve, *a)) continue;
         if (is_between && !is_on(*b, faces)) continue;
         const double gap = 2.0 * model_.tolerance({1, curve});
-        const double share = is_between ? k_between_share : k_close_share;
+        const double share = is_between ? k_between_share : k_on_curve_share;
         const double allowed = std::max(share * length, std::min(gap, k_between_share * length));
         const double off = distance(projector, curve, from, to, allowed,
                                     is_between ? k_between_cosine : k_along_cosine);

@@ -11,7 +11,7 @@ namespace camber {
 namespace {
 
 /// A patch is planar if its vertices lie this near one plane, relative to the mesh size.
-constexpr double k_planarity = 1e-9;
+constexpr double k_flat_share = 1e-9;
 /// Pieces without CAD end where facets turn by more than 30 degrees (cosine).
 constexpr double k_smooth_cosine = 0.866;
 
@@ -136,7 +136,7 @@ void make_shape_patches(const LinearMesh& mesh, const Topology& topology, const 
       sure += match.confidence[at(s)];
     }
     const bool is_flat =
-        fit_plane(mesh, topology, faces, k_planarity * mesh.size(), patch.origin, patch.normal);
+        fit_plane(mesh, topology, faces, k_flat_share * mesh.size(), patch.origin, patch.normal);
     const PatchRule rule = rules[at(list.front())];
     if (rule == PatchRule::plane && !is_flat) {
       throw OptionError(fmt::format("patch {} is not planar", patch.name), "--patch",

@@ -12,6 +12,9 @@
 
 namespace camber::detail {
 
+/// Slots of tables kept by shape and order (or one more small number below 32).
+inline constexpr std::size_t k_fast_keys = static_cast<std::size_t>(k_shape_count) * 32;
+
 /// Lazy tables by a small integer key. Addresses are stable for the life of the cache. Keys below
 /// `Slots` cost one atomic load once built; larger ones a mutex. Two threads may build the same
 /// table at once, the first one in is kept: so make() must be a pure function of the key. It may

@@ -15,8 +15,6 @@ namespace {
 /// element's size: far above the rounding of an elevation, far below any gap that matters.
 constexpr double k_same = 1e-9;
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 CornerKey key_of(const std::vector<Index>& corners) { return corner_key(corners); }
 
 /// Places of the frame's corners in the walk v.

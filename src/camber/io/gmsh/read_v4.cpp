@@ -14,8 +14,8 @@ constexpr std::size_t k_point_entity_text = 10, k_point_entity_binary = 36;
 constexpr std::size_t k_entity_text = 16, k_entity_binary = 60;
 constexpr std::size_t k_tag_text = 2, k_tag_binary = 4;
 constexpr std::size_t k_block_text = 8, k_block_binary = 20;
-constexpr std::size_t k_node_text = 8, k_node_binary = 32;
-constexpr std::size_t k_number_text = 2, k_number_binary = 8;
+constexpr std::size_t k_v4_node_text = 8, k_v4_node_binary = 32;
+constexpr std::size_t k_v4_number_text = 2, k_v4_number_binary = 8;
 
 std::size_t read_count(Cursor& in, std::size_t text_bytes, std::size_t binary_bytes,
                        const char* expected) {
@@ -69,7 +69,7 @@ void read_node_block(ReaderState& state) {
   if (parametric != 0 && parametric != 1) {
     in.fail(flag_place, std::to_string(parametric), "0 or 1 (parametric)");
   }
-  const std::size_t count = read_count(in, k_node_text, k_node_binary, "the number of nodes");
+  const std::size_t count = read_count(in, k_v4_node_text, k_v4_node_binary, "the number of nodes");
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t place = in.next();
     state.add_number(in.size_value("a node number"), place);
@@ -108,8 +108,8 @@ void read_element_block(ReaderState& state) {
   block.shape = type.shape;
   block.order = type.order;
   const auto nodes = static_cast<std::size_t>(type.node_count);
-  const std::size_t count = read_count(in, k_number_text * (1 + nodes),
-                                       k_number_binary * (1 + nodes), "the number of elements");
+  const std::size_t count = read_count(in, k_v4_number_text * (1 + nodes),
+                                       k_v4_number_binary * (1 + nodes), "the number of elements");
   if (count == 0) return;
   const std::span<const int> order = gmsh_to_canonical(type.shape, type.order);
   block.tags.reserve(count);
@@ -140,7 +140,7 @@ void read_entities_v4(ReaderState& state) {
 
 void read_nodes_v4(ReaderState& state) {
   Cursor& in = state.in;
-  const Totals totals = read_totals(in, k_node_text, k_node_binary, "the number of nodes");
+  const Totals totals = read_totals(in, k_v4_node_text, k_v4_node_binary, "the number of nodes");
   state.mesh.points.reserve(totals.items);
   state.mesh.point_tags.reserve(totals.items);
   for (std::size_t b = 0; b < totals.blocks; ++b) read_node_block(state);
@@ -154,7 +154,7 @@ void read_nodes_v4(ReaderState& state) {
 void read_elements_v4(ReaderState& state) {
   Cursor& in = state.in;
   const Totals totals =
-      read_totals(in, 2 * k_number_text, 2 * k_number_binary, "the number of elements");
+      read_totals(in, 2 * k_v4_number_text, 2 * k_v4_number_binary, "the number of elements");
   for (std::size_t b = 0; b < totals.blocks; ++b) read_element_block(state);
   if (static_cast<std::size_t>(state.element_count) != totals.items) {
     in.fail(totals.items_place, fmt::format("a total of {} elements", totals.items),

@@ -14,8 +14,6 @@
 namespace camber {
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 /// One element's view of a face: local face of a cell, or a surface element as a whole.
 struct View {
   std::size_t element = 0;

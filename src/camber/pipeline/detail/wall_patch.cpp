@@ -6,11 +6,7 @@
 #include <utility>
 
 namespace camber::detail {
-namespace {
-
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 WallPatch::WallPatch(const LinearMesh& mesh, const Topology& topology,
                      const Association& association, const GeometryModel& model, const Wall& wall,

@@ -21,8 +21,6 @@ constexpr double k_flat = 1e-9;
 constexpr double k_wildest = 0.5;
 constexpr Index k_row = 4096;
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 std::vector<Vec3> unit_normals(const FacetMesh& mesh) {
   std::vector<Vec3> normal;
   for (Index f = 0; at(f) < mesh.facets.size(); ++f) {

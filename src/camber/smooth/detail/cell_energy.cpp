@@ -23,8 +23,6 @@ constexpr double k_tied = 0.3;
 /// A cell is thin where its smallest stretch is below this share of the middle one.
 constexpr double k_thin = 0.3;
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 CellEnergy::CellEnergy(const CurvedMesh& curved, const std::vector<Index>& cells,

@@ -9,8 +9,6 @@
 namespace camber {
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 template <int d>
 SimplexCorners<double, d> corners_of(const SubSimplex& s, std::span<const Vec3> nodes) {
   SimplexCorners<double, d> x;

@@ -14,8 +14,6 @@ constexpr std::size_t k_grain = 128;
 /// What is left of a coefficient that is 0 but for round-off; no weight of a gather is so small.
 constexpr double k_no_weight = 1e-13;
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 template <class Mesh>  // CurvedMesh, const or not
 auto own_nodes(Mesh& curved, int dim, Index entity) {
   return dim == 1   ? curved.edge_nodes(entity)

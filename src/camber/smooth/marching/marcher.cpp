@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t k_elements_per_task = 8, k_nodes_per_task = 512;
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
-
 std::vector<Index> counted(std::size_t n) {
   std::vector<Index> items(n);
   std::iota(items.begin(), items.end(), 0);

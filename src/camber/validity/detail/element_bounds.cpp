@@ -8,7 +8,6 @@ namespace camber::detail {
 
 namespace {
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 // Halvings in all, per unit of CertifyOptions::max_depth.
 constexpr int k_splits_per_depth = 64;
 

@@ -9,7 +9,6 @@ namespace camber::detail {
 
 namespace {
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_unit_roundoff = 0x1p-53;
 // Halvings spent on finding a negative value once a value of zero (to round-off) is known: the sign
 // can no longer become positive, only the kind of failure is open.

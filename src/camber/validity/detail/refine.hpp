@@ -2,9 +2,12 @@
 // Branch and bound for the minimum of a polynomial, or of a ratio of two, in Bernstein form.
 #include <camber/validity/detail/subdivision.hpp>
 
+#include <limits>
 #include <vector>
 
 namespace camber::detail {
+
+inline constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 /// numerator / denominator over the reference domain; a null denominator means 1.
 struct Ratio {
