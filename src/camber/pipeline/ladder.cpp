@@ -1,4 +1,5 @@
 #include <camber/base/sorted_set.hpp>
+#include <camber/pipeline/detail/lowered_together.hpp>
 #include <camber/pipeline/ladder.hpp>
 #include <camber/pipeline/volume_start.hpp>
 #include <camber/pipeline/wall_repair.hpp>
@@ -86,6 +87,12 @@ std::vector<Index> cells_over(const LinearMesh& mesh, const Topology& topology, 
   return cells;
 }
 
+/// Passes in which faces lose one order of shape; then all of it.
+constexpr int k_gentle_passes = 8;
+constexpr int k_passes = 40;
+/// Rings of wall faces that are straightened around straight feet, in all.
+constexpr int k_max_rings = 12;
+
 /// Rings around bad cells whose nodes the elastic rung moves.
 constexpr int k_relaxed_rings = 20;
 
@@ -118,7 +125,8 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
   bool is_relaxed = false;
   UntangleOptions effort;
   std::vector<Index> bad = uncertified;
-  for (int pass = 0; pass <= 2 * k_max_order && !bad.empty(); ++pass) {
+  int rings = 0;  // spent, of straight faces around straight feet
+  for (int pass = 0; pass < k_passes && !bad.empty(); ++pass) {
     std::vector<Index> to_lower = take_wall_faults(topology, wall, columns, pinched, bad);
     if (to_lower.empty()) {
       const UntangleResult mended = untangle(curved, bad, effort);
@@ -150,11 +158,23 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     }
     for (Index slot : slots) {
       if (std::binary_search(changed.begin(), changed.end(), slot)) continue;
-      caps.emplace_back(
-          slot, std::min(placement.face_cap(slot), curved.face_order(wall.faces[at(slot)])) - 1);
+      const int cap = std::min(placement.face_cap(slot), curved.face_order(wall.faces[at(slot)]));
+      caps.emplace_back(slot, pass < k_gentle_passes ? cap - 1 : 1);
     }
-    const std::vector<Index> lowered = placement.lower(caps);
-    changed.insert(changed.end(), lowered.begin(), lowered.end());
+    const auto lower = [&] {
+      caps = lowered_together(mesh, topology, association, wall, placement, caps);
+      const std::vector<Index> lowered = placement.lower(caps);
+      changed.insert(changed.end(), lowered.begin(), lowered.end());
+    };
+    lower();
+    // All feet are straight already: what is around them bends the cells.
+    for (std::vector<Index> ring = slots; changed.empty() && !ring.empty() && rings < k_max_rings;
+         ++rings) {
+      ring = with_wall_ring(mesh, topology, wall, ring);
+      caps.clear();
+      for (Index slot : ring) caps.emplace_back(slot, 1);
+      lower();
+    }
     make_sorted_set(changed);
     if (changed.empty()) {  // nothing left to try: all that is bad is scaled back
       bad.insert(bad.end(), to_lower.begin(), to_lower.end());

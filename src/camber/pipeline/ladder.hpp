@@ -33,8 +33,9 @@ using Carry = std::function<std::vector<Index>(const std::vector<Index>& cells)>
 ///   2. wall faces under what is left are smoothed along the CAD, once each (wall_repair.hpp)
 ///   3. once, where no wall face could be smoothed: an elastic solve over the rings around what is
 ///   left
-///   4. wall faces under what is left get one order less of shape, and their columns are carried
-///   again
+///   4. wall faces under what is left get one order less of shape, together with thin neighbours
+///   that this would fold (detail/lowered_together.hpp), and their columns are carried again; where
+///   they are straight already, the rings of wall faces around them are straightened
 ///   5. displacements are scaled back until certified (elevate/rescue.hpp); this always ends
 LadderResult climb(CurvedMesh& curved, const Association& association, const GeometryModel& model,
                    Placement& placement, const Carry& carry, const Wall& wall,

@@ -137,6 +137,9 @@ bool polish_patch(CurvedMesh& curved, const std::vector<Index>& core,
       },
       x, hessian, lbfgs, [&](const VecX&) { return evaluations >= options.max_evaluations; });
   result.evaluations += static_cast<std::size_t>(evaluations) * cells.size();
+  VecX unused;
+  result.energy_at_start += energy.evaluate(detail::EnergyKind::quality, start, 0.0, unused);
+  result.energy_at_end += energy.evaluate(detail::EnergyKind::quality, x, 0.0, unused);
 
   std::vector<double> before;
   for (Index c : cells) before.push_back(costs[at(c)]);
