@@ -146,6 +146,17 @@ TEST(Ugrid, NamesGoThroughTheSameSafeWriteAsTheMesh) {
   EXPECT_EQ(std::distance(begin(files), end(files)), 3);
 }
 
+TEST(Ugrid, ConditionsOfTheUserStayWhereTheNamesAreRight) {
+  const std::string edited = "2\n1 4000 all_tris viscous\n2 6662 all_quads\n";
+  spill(scratch("m.mapbc"), edited);
+  write_mesh(surfaces_and_volumes(1), scratch("m.lb8.ugrid"));
+  EXPECT_EQ(slurp(scratch("m.mapbc")), edited);
+
+  spill(scratch("m.mapbc"), "2\n1 4000 all_quads\n2 6662 all_tris\n");  // names of another mesh
+  write_mesh(surfaces_and_volumes(1), scratch("m.lb8.ugrid"));
+  EXPECT_EQ(slurp(scratch("m.mapbc")), "2\n1 5000 all_tris\n2 5000 all_quads\n");
+}
+
 TEST(Ugrid, TheApexOfAPyramidIsItsThirdNode) {
   const std::string text =
       "5 0 1 0 1 0 0\n0 0 0\n1 0 0\n0 0 1\n1 1 0\n0 1 0\n1 2 4 5\n7\n1 5 3 2 4\n";
