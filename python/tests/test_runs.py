@@ -101,10 +101,10 @@ def test_families_of_a_cgns_mesh_link_it_to_the_cad(ball, tmp_path):
     subprocess.run([program, "curve", ball.mesh_path, "-g", ball.cad_path, "--order", "1",
                     "-o", linear, "-q"], check=True)
     result = camber.curve(camber.read(linear), ball.geometry, order=2)
-    assert result.report.data["link"]["method"] == "families"
-    assert "name the CAD faces of" in result.report.data["link"]["reason"]
+    assert result.report().data["link"]["method"] == "families"
+    assert "name the CAD faces of" in result.report().data["link"]["reason"]
     by_shape = camber.curve(camber.read(linear), ball.geometry, order=2, link="shape")
-    assert by_shape.report.data["link"]["method"] == "shape"
+    assert by_shape.report().data["link"]["method"] == "shape"
 
 
 def test_a_missing_file_says_what_where_and_what_to_do():

@@ -160,6 +160,16 @@ TEST(ForeignMeshes, TheCubicSphereOfSu2IsCertified) {
   EXPECT_EQ(bad_cells(mesh), 0U);
 }
 
+TEST(ForeignMeshes, Su2PrismsWithTheirFirstTriangleOutwardsAreTurned) {
+  const std::string path = foreign("su2-sphere-and-3d/slice_2syms.su2");
+  if (!fs::exists(path)) GTEST_SKIP() << path << " is absent";
+
+  const MeshData mesh = read_mesh(path);
+
+  EXPECT_EQ(counts(mesh)[Shape::prism], 7758U);
+  EXPECT_EQ(bad_cells(mesh), 0U);
+}
+
 TEST(ForeignMeshes, HybridCgnsMeshesOfAnsaHaveNoTangledCell) {
   const std::string folder = foreign("cgns-hybrid-ansa/");
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";

@@ -121,6 +121,19 @@ TEST(Cgns, CgnscheckFindsNothingWrong) {
   EXPECT_EQ(said.find("ERROR"), std::string::npos) << said;
 }
 
+TEST(Su2, PrismsAreTurnedIfMostAreMirroredAndLeftIfFewAre) {
+  const std::string points = "NPOIN= 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n";
+  const std::string up = "13 0 1 2 3 4 5\n", down = "13 0 2 1 3 5 4\n";
+  const auto volumes = [&](const std::string& cells) {
+    return measures(parse_su2("a.su2", "NDIME= 3\nNELEM= 3\n" + cells + points));
+  };
+
+  for (const double v : volumes(down + down + down)) EXPECT_NEAR(v, 0.5, 1e-14);
+  const std::vector<double> mixed = volumes(up + down + up);
+  EXPECT_NEAR(mixed[0], 0.5, 1e-14);
+  EXPECT_NEAR(mixed[1], -0.5, 1e-14);
+}
+
 TEST(Ugrid, ACurvedMeshIsRefusedWithAdvice) {
   try {
     write_mesh(surfaces_and_volumes(2), scratch("curved.lb8.ugrid"));
