@@ -17,6 +17,7 @@ else
 fi
 root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/tools/fuzz_seeds.py" "$work/seeds"
+# -entropic=0: its bookkeeping took 40 % of the time of the SU2 fuzzer.
 # Faster, and not weaker: short stacks of allocations, a small quarantine, no second copy of stacks.
 export ASAN_OPTIONS=malloc_context_size=3:quarantine_size_mb=8:detect_stack_use_after_return=0
 printf '| parser | runs | of all | seconds | runs/s | peak RSS, MB | finding |\n|---|---|---|---|---|---|---|\n'
@@ -27,7 +28,7 @@ for parser; do
   start=$(date +%s)
   finding=none
   nice -n 19 "$build/tests/fuzz/fuzz_$parser" -runs="$runs" -max_len=1024 -timeout=10 \
-    -rss_limit_mb=1024 -use_value_profile=0 -print_final_stats=1 -verbosity=1 \
+    -rss_limit_mb=1024 -use_value_profile=0 -entropic=0 -print_final_stats=1 \
     -artifact_prefix="$work/found/$parser/" "$work/corpus/$parser" "$work/seeds/$parser" \
     > /dev/null 2> "$log" || {
     finding=$(ls "$work/found/$parser" | tail -1)
