@@ -1,5 +1,6 @@
 // CGNS, SU2 and UGRID: written, read back, judged.
 #include <camber/base/error.hpp>
+#include <camber/io/detail/named_mesh.hpp>
 #include <camber/io/mesh_file.hpp>
 #include <camber/io/su2/su2_reader.hpp>
 #include <camber/io/ugrid/ugrid_reader.hpp>
@@ -157,6 +158,16 @@ TEST(Ugrid, NamesGoThroughTheSameSafeWriteAsTheMesh) {
   EXPECT_EQ(slurp(names), "2\n1 5000 all_tris\n2 5000 all_quads\n");
   const std::filesystem::directory_iterator files(std::filesystem::path(names).parent_path());
   EXPECT_EQ(std::distance(begin(files), end(files)), 3);
+}
+
+TEST(Ugrid, ATagForEachFaceIsRefusedBeforeItFillsTheMemory) {
+  const std::size_t count = NamedMeshBuilder::k_most_entities + 1;
+  std::string text = "4 " + std::to_string(count) + " 0 1 0 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  for (std::size_t f = 0; f < count; ++f) text += "1 3 2\n";
+  for (std::size_t f = 0; f < count; ++f) text += std::to_string(f + 1) + "\n";
+  text += "1 2 3 4\n";
+
+  EXPECT_THROW(static_cast<void>(parse_ugrid("a.ugrid", text, "")), FileError);
 }
 
 TEST(Ugrid, ConditionsOfTheUserStayWhereTheNamesAreRight) {

@@ -41,6 +41,10 @@ int NamedMeshBuilder::entity(int dim, const std::string& name) {
 int NamedMeshBuilder::entity(int dim, const std::string& name, int tag) {
   const auto [place, is_new] = entity_.try_emplace({dim, name}, tag);
   if (!is_new) return place->second;
+  if (entity_.size() > k_most_entities) {
+    throw FileError(fmt::format("more than {} different patches and volumes", k_most_entities),
+                    mesh_.source, "a number for each element is no patch: leave it out");
+  }
   last_entity_[dim] = std::max(last_entity_[dim], tag);
   record_[{dim, tag}] = mesh_.entities.size();
   EntityRecord record;

@@ -17,13 +17,17 @@ namespace camber::io {
 /// dimension in the order of first use, one physical group of the same tag and name.
 class NamedMeshBuilder {
  public:
+  /// A file with more has a number for each element, which is no patch; and entities take far more
+  /// memory than their elements do in the file.
+  static constexpr std::size_t k_most_entities = 65536;
+
   explicit NamedMeshBuilder(std::string source) { mesh_.source = std::move(source); }
 
   [[nodiscard]] Points& points() { return mesh_.points; }
   /// What was collected so far.
   [[nodiscard]] MeshData& mesh() { return mesh_; }
   [[nodiscard]] const MeshData& mesh() const { return mesh_; }
-  /// Tag of the entity of that name.
+  /// Tag of the entity of that name. @throws FileError if there are too many
   [[nodiscard]] int entity(int dim, const std::string& name);
   /// The same with a tag of the caller's, for entities that none has yet.
   int entity(int dim, const std::string& name, int tag);
