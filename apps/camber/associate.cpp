@@ -2,6 +2,7 @@
 #include <camber/base/parallel.hpp>
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/cad_link.hpp>
+#include <camber/pipeline/family_link.hpp>
 #include <camber/pipeline/mesh_link.hpp>
 
 #include <chrono>
@@ -42,6 +43,8 @@ int run(const AssociateFlags& flags) {
   line.show("associate", 0.2);
   const LinearMesh mesh = build_linear_mesh(data);
   const Topology topology = build_topology(mesh);
+  const std::string families =
+      take_families(flags.mesh, flags.format.reading().format, data, *geometry, cad, options);
   Report report;
   const Association association = CadLink(data, *geometry, options).link(mesh, topology, report);
   stop_if_interrupted();
@@ -49,6 +52,7 @@ int run(const AssociateFlags& flags) {
   io::write_meshlink(mesh_link_of(mesh, topology, association, *geometry, flags.mesh, cad),
                      flags.output);
   line.clear();
+  note_families(families, report);
   report.command = "associate";
   report.threads = thread_count();
   report.input.mesh = flags.mesh;
@@ -76,7 +80,7 @@ Verb add_associate(CLI::App& app) {
   const auto flags = std::make_shared<AssociateFlags>();
   CLI::App* verb = app.add_subcommand(
       "associate", "find the CAD face, curve and vertex of every boundary entity of a mesh");
-  verb->add_option("mesh", flags->mesh, "linear mesh (.msh)")->required()->type_name("MESH");
+  verb->add_option("mesh", flags->mesh, "linear mesh")->required()->type_name("MESH");
   verb->add_option("-g,--geometry", flags->geometry, "CAD file (.step .stp .iges .igs .brep)")
       ->required()
       ->type_name("CAD")
@@ -86,9 +90,10 @@ Verb add_associate(CLI::App& app) {
                    "MeshLink file to write (.xml), for: camber curve --link")
       ->required()
       ->type_name("LINK");
-  verb->add_option("--link", flags->link,
-                   "tags: the surface tags of the mesh; shape: place and shape alone; auto: tags "
-                   "if they fit the CAD, else shape")
+  verb->add_option(
+          "--link", flags->link,
+          "tags: the surface tags of the mesh; shape: place and shape alone; auto: CAD faces "
+          "that the families of a CGNS mesh name, else tags if they fit the CAD, else shape")
       ->check(CLI::IsMember({"auto", "tags", "shape"}))
       ->type_name("auto|tags|shape")
       ->capture_default_str();

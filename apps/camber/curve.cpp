@@ -167,29 +167,6 @@ std::size_t foresee_memory(const MeshData& mesh, const CurveFlags& flags) {
   return estimate;
 }
 
-/// Rules from the families of a CGNS mesh, unless something else says what links mesh and CAD.
-/// @return what the report says of it, "" if no rule came of it
-std::string take_families(const MeshData& mesh, const GeometryModel& geometry,
-                          const CurveFlags& flags, CurveOptions& options) {
-  const io::Format stated = flags.format.reading().format;
-  const io::Format format =
-      stated == io::Format::automatic ? io::format_by_name(flags.mesh) : stated;
-  if (flags.link != "auto" || options.link_by != LinkBy::automatic || format != io::Format::cgns) {
-    return "";
-  }
-  const std::vector<io::PatchGeometry> families = io::read_cgns_geometry(flags.mesh);
-  if (families.empty()) return "";
-  const FamilyLink link =
-      link_by_families(families, mesh, geometry, flags.geometry.front(), options.association);
-  for (const std::string& reason : link.left_out) {
-    log(LogLevel::info, "family of patch " + reason + "; it is linked by shape");
-  }
-  if (link.patches == 0) return "";
-  return fmt::format(
-      "the families of the mesh name the CAD faces of {} patches{}", link.patches,
-      link.left_out.empty() ? "" : fmt::format("; not taken: {}", fmt::join(link.left_out, "; ")));
-}
-
 int run(const CurveFlags& flags) {
   const Clock::time_point begin = Clock::now();
   CurveOptions options = options_of(flags);
@@ -214,7 +191,10 @@ int run(const CurveFlags& flags) {
                                                : read_cad(source);
   }
   stop_if_interrupted();
-  const std::string families = geometry ? take_families(mesh, *geometry, flags, options) : "";
+  const std::string families = geometry
+                                   ? take_families(flags.mesh, flags.format.reading().format, mesh,
+                                                   *geometry, flags.geometry.front(), options)
+                                   : "";
   const double reading = seconds_since(begin);
 
   CurveResult result = geometry
@@ -223,10 +203,7 @@ int run(const CurveFlags& flags) {
   Report& report = result.report;
   report.input.mesh = flags.mesh;
   report.estimated_bytes = expected_bytes;
-  if (!families.empty()) {
-    report.link.method = "families";
-    report.link.reason = families;
-  }
+  note_families(families, report);
   report.input.geometry = flags.geometry;
   report.options = shown(flags, options);
   report.stages_s.insert(report.stages_s.begin(), {"read", reading});

@@ -6,10 +6,12 @@
 #include <camber/base/parallel.hpp>
 #include <camber/geom_occ/cad_file.hpp>
 #include <camber/pipeline/check.hpp>
+#include <camber/pipeline/family_link.hpp>
 #include <camber/pipeline/geometry_source.hpp>
 #include <camber/pipeline/own_surface.hpp>
 #include <camber/pipeline/text_report.hpp>
 
+#include <filesystem>
 #include <pybind11/stl.h>
 #include <utility>
 
@@ -114,6 +116,15 @@ std::vector<std::pair<std::string, std::string>> shown(const py::dict& given) {
   return list;
 }
 
+/// What the families of the file say, where the mesh came from a .cgns file that is still there.
+std::string families_of(const MeshData& mesh, const Geometry& geometry, CurveOptions& options) {
+  std::error_code failed;
+  const std::filesystem::path source(mesh.source);
+  if (source.extension() != ".cgns" || !std::filesystem::is_regular_file(source, failed)) return "";
+  return take_families(mesh.source, io::Format::cgns, mesh, *geometry.model, geometry.path,
+                       options);
+}
+
 CurveResult run_curve(const MeshData& mesh, Geometry* geometry, CurveOptions& options,
                       double feature_angle, const Progress& progress) {
   if (!geometry) {
@@ -122,7 +133,10 @@ CurveResult run_curve(const MeshData& mesh, Geometry* geometry, CurveOptions& op
   const std::scoped_lock turn(geometry->turn);
   geometry->model->set_scale(1.0);  // as read, whatever an earlier run found
   if (!geometry->is_cad) link_without_cad(options);
-  return curve(mesh, *geometry->model, options, progress);
+  const std::string families = families_of(mesh, *geometry, options);
+  CurveResult result = curve(mesh, *geometry->model, options, progress);
+  note_families(families, result.report);
+  return result;
 }
 
 std::shared_ptr<Run> curve_mesh(const MeshData& mesh, const std::shared_ptr<Geometry>& geometry,

@@ -1,6 +1,7 @@
 """Curving, checking, errors, progress, threads."""
 import ast
 import pathlib
+import subprocess
 import threading
 import time
 
@@ -89,6 +90,21 @@ def test_a_patch_can_name_its_cad_faces(ball):
     result = camber.curve(ball.mesh, ball.geometry, order=2, link="shape",
                           patches={"ball": ["face_1"]})
     assert result.is_certified and result.orders.max() == 2
+
+
+def test_families_of_a_cgns_mesh_link_it_to_the_cad(ball, tmp_path):
+    # The package stands beside the program in the build tree.
+    program = pathlib.Path(camber.__file__).parents[2] / "apps" / "camber" / "camber"
+    if not program.exists():
+        pytest.skip(f"{program} is not there")
+    linear = tmp_path / "linear.cgns"
+    subprocess.run([program, "curve", ball.mesh_path, "-g", ball.cad_path, "--order", "1",
+                    "-o", linear, "-q"], check=True)
+    result = camber.curve(camber.read(linear), ball.geometry, order=2)
+    assert result.report().data["link"]["method"] == "families"
+    assert "name the CAD faces of" in result.report().data["link"]["reason"]
+    by_shape = camber.curve(camber.read(linear), ball.geometry, order=2, link="shape")
+    assert by_shape.report().data["link"]["method"] == "shape"
 
 
 def test_a_missing_file_says_what_where_and_what_to_do():

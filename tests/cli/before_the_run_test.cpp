@@ -52,6 +52,13 @@ TEST_F(CliTest, FamiliesOfACgnsMeshLinkItToTheCad) {
   EXPECT_EQ(shape["link"]["method"], "shape");
   EXPECT_EQ(families["output"]["cells_by_order"], shape["output"]["cells_by_order"]);
   EXPECT_NEAR(families["surface"]["maximum"], shape["surface"]["maximum"], 1e-12);
+
+  const Outcome found = camber({"associate", file("linear.cgns"), "-g", cad, "-o", file("link.xml"),
+                                "--json", file("report.json")});
+  EXPECT_EQ(found.code, 0) << found.err << found.out;
+  const Json associate = Json::parse(read_text(file("report.json")));
+  EXPECT_EQ(associate["link"]["method"], "families");
+  EXPECT_EQ(associate["link"]["reason"], families["link"]["reason"]);
 }
 
 }  // namespace

@@ -5,7 +5,8 @@ usage: kill_and_look.py CAMBER CASE_DIR WORK_DIR [--rounds N] [--seed S]
 Every format in turn, and `curve` beside `convert`. A round puts a known old file in place, starts the program,
 kills it (SIGKILL) after a random share of the time that it takes, and looks: the target holds the bytes of the
 old file or of a complete run. A .cgns file has a few other bytes every time, so there the new one is any that
-converts to the same .su2. With .ugrid the names (.mapbc) are a file of their own, judged in the same way.
+converts to the same .su2. With .ugrid the names (.mapbc) are a file of their own, judged in the same way; and
+a new mesh never stands beside old names.
 """
 import argparse
 import os
@@ -98,6 +99,9 @@ def main():
             if verdict not in ('old', 'new'):
                 print(f'{job.name}: {target.name} is {verdict}')
                 bad += 1
+        if 'ugrid' in job.name and verdicts == ['new', 'old']:
+            print(f'{job.name}: a new mesh with the old names')
+            bad += 1
         counts['killed' if killed else 'finished before'] = \
             counts.get('killed' if killed else 'finished before', 0) + 1
         counts['temporaries left'] = counts.get('temporaries left', 0) + left

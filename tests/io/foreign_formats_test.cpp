@@ -134,6 +134,21 @@ TEST(ForeignMeshes, TheSu2FileOfTheSameMeshSaysTheSameAgain) {
   EXPECT_NEAR(total_measure(su2, 2), area, 1e-12 * area);
 }
 
+TEST(ForeignMeshes, TheGmshFileOfTheSameMeshSaysTheSameOnceMore) {
+  const std::string stem = "onera-m6/gen/m6_hyb_alltypes";
+  const std::string path = unpacked(stem + ".msh");
+  if (path.empty()) GTEST_SKIP() << stem << " is absent";
+
+  MeshData msh = read_mesh(path, {.format = Format::gmsh});
+  std::erase_if(msh.blocks, [](const ElementBlock& b) { return dimension(b.shape) < 2; });
+  const MeshData cgns = read_mesh(foreign(stem + ".cgns"));
+
+  EXPECT_EQ(counts(msh), counts(cgns));
+  const double volume = total_measure(cgns, 3), area = total_measure(cgns, 2);
+  EXPECT_NEAR(total_measure(msh, 3), volume, 1e-12 * volume);
+  EXPECT_NEAR(total_measure(msh, 2), area, 1e-12 * area);
+}
+
 TEST(ForeignMeshes, TheCubicSphereOfSu2IsCertified) {
   const std::string path = unpacked("su2-sphere-and-3d/SphereInSphereStructured_nPoly3.su2");
   if (path.empty()) GTEST_SKIP() << "the cubic sphere is absent";
@@ -142,6 +157,16 @@ TEST(ForeignMeshes, TheCubicSphereOfSu2IsCertified) {
 
   EXPECT_EQ(counts(mesh)[Shape::hexahedron], 768U);
   EXPECT_EQ(counts(mesh)[Shape::quadrilateral], 512U);
+  EXPECT_EQ(bad_cells(mesh), 0U);
+}
+
+TEST(ForeignMeshes, Su2PrismsWithTheirFirstTriangleOutwardsAreTurned) {
+  const std::string path = foreign("su2-sphere-and-3d/slice_2syms.su2");
+  if (!fs::exists(path)) GTEST_SKIP() << path << " is absent";
+
+  const MeshData mesh = read_mesh(path);
+
+  EXPECT_EQ(counts(mesh)[Shape::prism], 7758U);
   EXPECT_EQ(bad_cells(mesh), 0U);
 }
 

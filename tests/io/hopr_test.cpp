@@ -1,5 +1,6 @@
 // HOPR meshes, read by a second reader that follows that format's own rules (read_hopr.py).
 #include <camber/base/error.hpp>
+#include <camber/io/hopr/hilbert_order.hpp>
 #include <camber/io/hopr/hopr_arrays.hpp>
 #include <camber/io/hopr/hopr_file.hpp>
 #include <camber/io/mesh_file.hpp>
@@ -80,6 +81,67 @@ TEST(HoprArrays, OfTwoTetsAreThese) {
                                                      3, 7, 0, 0, 1));
   EXPECT_THAT(arrays.bc_names, testing::ElementsAre("boundary"));
   EXPECT_THAT(arrays.node_ids, testing::ElementsAre(1, 2, 3, 4, 3, 4, 2, 5));
+}
+
+TEST(HilbertOrder, VisitsEveryCellOnceInStepsOverFaces) {
+  for (const int bits : {1, 2, 3, 4}) {
+    const std::uint32_t side = std::uint32_t{1} << bits;
+    std::vector<std::array<std::uint32_t, 3>> cell_at(std::size_t{side} * side * side);
+    std::vector<bool> is_taken(cell_at.size(), false);
+    for (std::uint32_t i = 0; i < side; ++i) {
+      for (std::uint32_t j = 0; j < side; ++j) {
+        for (std::uint32_t k = 0; k < side; ++k) {
+          const std::uint64_t place = hopr::hilbert_place({i, j, k}, bits);
+          ASSERT_LT(place, cell_at.size());
+          EXPECT_FALSE(is_taken[place]);
+          is_taken[place] = true;
+          cell_at[place] = {i, j, k};
+        }
+      }
+    }
+    for (std::size_t p = 1; p < cell_at.size(); ++p) {
+      int steps = 0;
+      for (std::size_t d = 0; d < 3; ++d) {
+        steps += std::abs(static_cast<int>(cell_at[p][d]) - static_cast<int>(cell_at[p - 1][d]));
+      }
+      EXPECT_EQ(steps, 1) << "bits " << bits << ", place " << p;
+    }
+  }
+}
+
+TEST(HilbertOrder, KeepsTheOrderOfEqualPoints) {
+  EXPECT_THAT(hopr::hilbert_order({{1, 1, 1}, {0, 0, 0}, {0, 0, 0}}),
+              testing::ElementsAre(1, 2, 0));
+  EXPECT_THAT(hopr::hilbert_order({{2, 2, 2}, {2, 2, 2}}), testing::ElementsAre(0, 1));
+}
+
+TEST(HoprArrays, ElementsFollowTheCurve) {
+  // A row of tets along x, numbered in leaps of 3.
+  constexpr std::size_t k_count = 8;
+  MeshData mesh;
+  ElementBlock cells;
+  cells.shape = Shape::tetrahedron;
+  cells.entity = 1;
+  for (std::size_t e = 0; e < k_count; ++e) {
+    const auto x = static_cast<double>(3 * e % k_count);
+    for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0, 0, 0.5)}) {
+      cells.nodes.push_back(static_cast<Index>(mesh.points.size()));
+      mesh.points.emplace_back(corner + Vec3(x, 0, 0));
+    }
+  }
+  mesh.blocks = {cells};
+
+  const hopr::Arrays arrays = hopr::make_arrays(by_names(mesh, hopr_name_rules()), "row.h5");
+
+  Points centres;
+  for (std::size_t e = 0; e < k_count; ++e) {
+    const double* const x = &arrays.barycenters[3 * e];
+    centres.emplace_back(x[0], x[1], x[2]);
+    // Each element's package is its own: the first node is at the first corner.
+    EXPECT_NEAR(arrays.node_coords[3 * 4 * e] + 0.125, x[0], 1e-15);
+  }
+  EXPECT_THAT(hopr::hilbert_order(centres), testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+  EXPECT_NE(centres[1].x() - centres[0].x(), 3.0);  // not as numbered
 }
 
 TEST(HoprArrays, APatchInsideOfTheMeshHasConditionsOnBothSides) {

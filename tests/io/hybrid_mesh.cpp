@@ -42,6 +42,34 @@ std::vector<Cell> straight_cells() {
   };
 }
 
+/// The cube [-1, 1]^3 in eight hexes, or each of these in six tets round its diagonal.
+std::vector<Cell> grid_cells(Shape shape) {
+  constexpr std::array k_walks{std::array{0, 1, 2}, std::array{1, 2, 0}, std::array{2, 0, 1},
+                               std::array{0, 2, 1}, std::array{2, 1, 0}, std::array{1, 0, 2}};
+  std::vector<Cell> cells;
+  for (const double x : {-1.0, 0.0}) {
+    for (const double y : {-1.0, 0.0}) {
+      for (const double z : {-1.0, 0.0}) {
+        const Vec3 low(x, y, z);
+        if (shape == Shape::hexahedron) {
+          Cell& cell = cells.emplace_back(Cell{shape, {}});
+          for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0),
+                                     Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(1, 1, 1), Vec3(0, 1, 1)}) {
+            cell.corners.push_back(low + corner);
+          }
+          continue;
+        }
+        for (const std::array<int, 3>& walk : k_walks) {
+          Cell& cell = cells.emplace_back(Cell{shape, {low}});
+          for (const int axis : walk)
+            cell.corners.push_back(cell.corners.back() + Vec3::Unit(axis));
+        }
+      }
+    }
+  }
+  return cells;
+}
+
 double straight_volume(const Cell& cell, const std::vector<int>& numbering) {
   Points corner_points;
   for (const int n : numbering) corner_points.push_back(cell.corners[static_cast<std::size_t>(n)]);
@@ -76,8 +104,7 @@ class Maker {
   explicit Maker(unsigned seed) : random_(seed) {}
 
   template <class Bend, class OrderOf>
-  MeshData make(const Bend& bend, const OrderOf& order_of) {
-    std::vector<Cell> cells = straight_cells();
+  MeshData make(std::vector<Cell> cells, const Bend& bend, const OrderOf& order_of) {
     std::map<std::set<Key>, int> seen;  // corners of a face -> cells that have it
     std::vector<int> orders;
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -178,12 +205,23 @@ class Maker {
 
 }  // namespace
 
+namespace {
+
+Vec3 smoothly_bent(const Vec3& x) {
+  return x + 0.06 * Vec3(std::sin(2.0 * x.y() + x.z()), std::cos(1.5 * x.x() - x.z()),
+                         std::sin(x.x() + 0.7 * x.y()));
+}
+
+}  // namespace
+
 MeshData hybrid(int order, unsigned seed) {
-  const auto bend = [](const Vec3& x) -> Vec3 {
-    return x + 0.06 * Vec3(std::sin(2.0 * x.y() + x.z()), std::cos(1.5 * x.x() - x.z()),
-                           std::sin(x.x() + 0.7 * x.y()));
-  };
-  return Maker(seed).make(bend, [&](std::size_t, std::mt19937&) { return order; });
+  return Maker(seed).make(straight_cells(), smoothly_bent,
+                          [&](std::size_t, std::mt19937&) { return order; });
+}
+
+MeshData bent_cube(Shape shape, int order, unsigned seed) {
+  return Maker(seed).make(grid_cells(shape), smoothly_bent,
+                          [&](std::size_t, std::mt19937&) { return order; });
 }
 
 MeshData hybrid_of_mixed_order(unsigned seed) {
@@ -191,7 +229,7 @@ MeshData hybrid_of_mixed_order(unsigned seed) {
     return x + 0.05 * Vec3(x.y() * x.z() - x.y() * x.y(), x.x() * x.x() - x.z() * x.x(),
                            x.x() * x.y() + 0.5 * x.z() * x.z());
   };
-  return Maker(seed).make(bend, [](std::size_t i, std::mt19937& random) {
+  return Maker(seed).make(straight_cells(), bend, [](std::size_t i, std::mt19937& random) {
     constexpr std::array k_orders{2, 3, 2, 2, 4};  // hexes, pyramids, the prism; then tets
     return i < k_orders.size() ? k_orders[i] : 2 + static_cast<int>(random() % 3);
   });

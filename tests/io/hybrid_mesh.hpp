@@ -16,6 +16,9 @@ namespace camber::io {
 /// the same of a common face. Neighbours of one order share nodes, others their corners only.
 [[nodiscard]] MeshData hybrid_of_mixed_order(unsigned seed);
 
+/// A cube of side 2, bent by a smooth map, in 8 hexes or 48 tets; otherwise as hybrid().
+[[nodiscard]] MeshData bent_cube(Shape shape, int order, unsigned seed);
+
 /// What the independent readers compare with: lines "volume V", "area A" for each cell and surface
 /// element of dimension 3 and 2, and "node X Y Z" for each point of the mesh, "inner X Y Z" for
 /// those inside of a cell.

@@ -1,5 +1,6 @@
 // CGNS, SU2 and UGRID: written, read back, judged.
 #include <camber/base/error.hpp>
+#include <camber/io/detail/named_mesh.hpp>
 #include <camber/io/mesh_file.hpp>
 #include <camber/io/su2/su2_reader.hpp>
 #include <camber/io/ugrid/ugrid_reader.hpp>
@@ -121,6 +122,19 @@ TEST(Cgns, CgnscheckFindsNothingWrong) {
   EXPECT_EQ(said.find("ERROR"), std::string::npos) << said;
 }
 
+TEST(Su2, PrismsAreTurnedIfMostAreMirroredAndLeftIfFewAre) {
+  const std::string points = "NPOIN= 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n";
+  const std::string up = "13 0 1 2 3 4 5\n", down = "13 0 2 1 3 5 4\n";
+  const auto volumes = [&](const std::string& cells) {
+    return measures(parse_su2("a.su2", "NDIME= 3\nNELEM= 3\n" + cells + points));
+  };
+
+  for (const double v : volumes(down + down + down)) EXPECT_NEAR(v, 0.5, 1e-14);
+  const std::vector<double> mixed = volumes(up + down + up);
+  EXPECT_NEAR(mixed[0], 0.5, 1e-14);
+  EXPECT_NEAR(mixed[1], -0.5, 1e-14);
+}
+
 TEST(Ugrid, ACurvedMeshIsRefusedWithAdvice) {
   try {
     write_mesh(surfaces_and_volumes(2), scratch("curved.lb8.ugrid"));
@@ -144,6 +158,27 @@ TEST(Ugrid, NamesGoThroughTheSameSafeWriteAsTheMesh) {
   EXPECT_EQ(slurp(names), "2\n1 5000 all_tris\n2 5000 all_quads\n");
   const std::filesystem::directory_iterator files(std::filesystem::path(names).parent_path());
   EXPECT_EQ(std::distance(begin(files), end(files)), 3);
+}
+
+TEST(Ugrid, ATagForEachFaceIsRefusedBeforeItFillsTheMemory) {
+  const std::size_t count = NamedMeshBuilder::k_most_entities + 1;
+  std::string text = "4 " + std::to_string(count) + " 0 1 0 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  for (std::size_t f = 0; f < count; ++f) text += "1 3 2\n";
+  for (std::size_t f = 0; f < count; ++f) text += std::to_string(f + 1) + "\n";
+  text += "1 2 3 4\n";
+
+  EXPECT_THROW(static_cast<void>(parse_ugrid("a.ugrid", text, "")), FileError);
+}
+
+TEST(Ugrid, ConditionsOfTheUserStayWhereTheNamesAreRight) {
+  const std::string edited = "2\n1 4000 all_tris viscous\n2 6662 all_quads\n";
+  spill(scratch("m.mapbc"), edited);
+  write_mesh(surfaces_and_volumes(1), scratch("m.lb8.ugrid"));
+  EXPECT_EQ(slurp(scratch("m.mapbc")), edited);
+
+  spill(scratch("m.mapbc"), "2\n1 4000 all_quads\n2 6662 all_tris\n");  // names of another mesh
+  write_mesh(surfaces_and_volumes(1), scratch("m.lb8.ugrid"));
+  EXPECT_EQ(slurp(scratch("m.mapbc")), "2\n1 5000 all_tris\n2 5000 all_quads\n");
 }
 
 TEST(Ugrid, TheApexOfAPyramidIsItsThirdNode) {

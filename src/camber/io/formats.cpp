@@ -23,6 +23,10 @@ constexpr std::array k_formats{
                "SU2, SU2-DG"},
     FormatInfo{Format::ugrid, "ugrid", ".ugrid", "UGRID (AFLR3), ASCII, b8, lb8, r8, lr8", true,
                true, 1, false, true, "patches by name (.mapbc)", "FUN3D, Kestrel and others"},
+    FormatInfo{Format::meshb, "meshb", ".meshb", "libMeshb (GMF; Medit's text `.mesh`)", true,
+               false, 1, false, true,
+               "references as tags and patch names, vertices on CAD entities",
+               "refine, the GAMMA tools"},
     FormatInfo{Format::mfem, "mfem", ".mesh", "MFEM 1.0", false, true, 4, false, false,
                "volumes and patches by number, names as comments",
                "MFEM, GLVis; pyramids above order 1: MFEM 4.8 or later"},
@@ -66,6 +70,11 @@ Format format_by_name(const std::string& path) {
   throw FileError(extension.empty() ? "the name has no extension that tells its format"
                                     : "unknown extension '" + extension + "'",
                   path, "use " + known);
+}
+
+Format format_to_read(const std::string& path) {
+  const Format format = format_by_name(path);
+  return format == Format::mfem ? Format::meshb : format;
 }
 
 std::string format_table() {

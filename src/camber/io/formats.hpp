@@ -7,7 +7,7 @@
 
 namespace camber::io {
 
-enum class Format { automatic, gmsh, vtu, cgns, su2, ugrid, mfem, nektar, hopr };
+enum class Format { automatic, gmsh, vtu, cgns, su2, ugrid, mfem, nektar, hopr, meshb };
 
 struct FormatInfo {
   Format format;
@@ -28,6 +28,8 @@ struct FormatInfo {
 [[nodiscard]] const FormatInfo& format_info(Format format);
 /// Format by the extension of the name, any case. @throws FileError listing what is known
 [[nodiscard]] Format format_by_name(const std::string& path);
+/// The same for a file to be read: ".mesh" is Medit's text here, and MFEM's where it is written.
+[[nodiscard]] Format format_to_read(const std::string& path);
 
 /// The table as it stands in docs/formats.md.
 [[nodiscard]] std::string format_table();

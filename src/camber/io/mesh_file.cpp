@@ -10,6 +10,7 @@
 #include <camber/io/gmsh/gmsh_writer.hpp>
 #include <camber/io/hopr/hopr_file.hpp>
 #include <camber/io/mesh_file.hpp>
+#include <camber/io/meshb/meshb_reader.hpp>
 #include <camber/io/mfem/mfem_writer.hpp>
 #include <camber/io/nektar/nektar_writer.hpp>
 #include <camber/io/su2/su2_reader.hpp>
@@ -23,8 +24,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <map>
 #include <new>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -57,6 +61,8 @@ MeshData read_as(Format format, const std::string& path) {
       return read_ugrid(path);
     case Format::vtu:
       return read_vtu(path);
+    case Format::meshb:
+      return read_meshb(path);
     case Format::mfem:
     case Format::nektar:
     case Format::hopr:
@@ -109,6 +115,57 @@ void write_only(const std::string& path, const Write& write) {
       [&](const std::string& temporary) { check_file(temporary, summary, path); });
 }
 
+/// True if the file gives the patches of the mesh their names already; its boundary conditions may
+/// be the user's.
+bool has_names(const std::string& mapbc, const NamedMesh& named) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(mapbc, failed)) return false;
+  std::map<std::int64_t, std::string> names;
+  for (const EntityRecord& patch : named.mesh.entities) {
+    if (patch.key.dim == 2) names[patch.key.tag] = patch.name;
+  }
+  try {
+    return parse_mapbc(mapbc, InputFile(mapbc).text()) == names;
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
+/// UGRID and the names of its patches, two files. Both are complete on the disk before the first
+/// takes its place; names go first, so that a new mesh always has its own. Names that are right
+/// stay as they are.
+void write_ugrid_pair(const NamedMesh& named, const std::string& path,
+                      const std::function<void(const std::string&)>& verify) {
+  const std::string mapbc = ugrid::mapbc_path(path);
+  TemporaryFile mesh_file(writable_target(path), path);
+  write_ugrid(named, mesh_file.path(), path);
+  mesh_file.sync();
+  verify(mesh_file.path());
+  if (has_names(mapbc, named)) {
+    mesh_file.replace_target();
+    return;
+  }
+  const std::string names_target = writable_target(mapbc);
+  std::optional<std::string> before;
+  if (std::filesystem::exists(names_target) && std::filesystem::file_size(names_target) > 0) {
+    before = InputFile(names_target).text();
+  }
+  TemporaryFile names_file(names_target, mapbc);
+  {
+    OutputFile out(names_file.path(), mapbc);
+    out.append(mapbc_text(named));
+    out.finish();
+  }
+  names_file.sync();
+  names_file.replace_target();
+  try {
+    mesh_file.replace_target();
+  } catch (const FileError&) {
+    if (before) write_text(mapbc, *before);
+    throw;
+  }
+}
+
 /// Formats that know entities by name only.
 void write_named(const MeshData& mesh, const std::string& path, Format format,
                  const WriteOptions& options, const std::function<void(const MeshData&)>& verify) {
@@ -128,33 +185,31 @@ void write_named(const MeshData& mesh, const std::string& path, Format format,
         [&](const std::string& temporary) { check_hopr(arrays, temporary, path); });
     return;
   }
+  const auto check = [&](const std::string& temporary) {
+    const MeshData read = read_back(path, [&] {
+      if (format != Format::ugrid) return read_as(format, temporary);
+      return parse_ugrid(path, InputFile(temporary).text(), mapbc_text(named));
+    });
+    const MeshData written = relabel(mesh, named, read);
+    if (verify) verify(written);
+  };
+  if (format == Format::ugrid) {
+    write_ugrid_pair(named, path, check);
+    return;
+  }
   write_atomically(
       path,
       [&](const std::string& temporary) {
         if (format == Format::cgns) write_cgns(named, temporary, options.geometry, path);
         if (format == Format::su2) write_su2(named, temporary, path);
-        if (format == Format::ugrid) write_ugrid(named, temporary, path);
       },
-      [&](const std::string& temporary) {
-        const MeshData read = read_back(path, [&] {
-          if (format != Format::ugrid) return read_as(format, temporary);
-          return parse_ugrid(path, InputFile(temporary).text(), mapbc_text(named));
-        });
-        const MeshData written = relabel(mesh, named, read);
-        if (verify) verify(written);
-      });
-  if (format != Format::ugrid) return;
-  write_atomically(ugrid::mapbc_path(path), [&](const std::string& temporary) {
-    OutputFile out(temporary, ugrid::mapbc_path(path));
-    out.append(mapbc_text(named));
-    out.finish();
-  });
+      check);
 }
 
 }  // namespace
 
 MeshData read_mesh(const std::string& path, const ReadOptions& options) {
-  const Format format = format_of(path, options.format);
+  const Format format = options.format == Format::automatic ? format_to_read(path) : options.format;
   try {
     return read_as(format, path);
   } catch (const std::bad_alloc&) {
@@ -164,6 +219,10 @@ MeshData read_mesh(const std::string& path, const ReadOptions& options) {
 
 void check_writable(const std::string& path, const WriteOptions& options) {
   const Format format = format_of(path, options.format);
+  if (!format_info(format).writes) {
+    throw FileError(std::string(format_info(format).title) + " files can only be read", path,
+                    "write .msh, .cgns or another format of: camber info --formats");
+  }
   if (format == Format::gmsh) check_version(path, options);
   if (format == Format::ugrid) {
     static_cast<void>(ugrid::layout_of(path));

@@ -1,3 +1,4 @@
+#include <camber/base/log.hpp>
 #include <camber/pipeline/family_link.hpp>
 
 #include <algorithm>
@@ -68,6 +69,29 @@ FamilyLink link_by_families(const std::vector<io::PatchGeometry>& families, cons
     ++link.patches;
   }
   return link;
+}
+
+std::string take_families(const std::string& path, io::Format format, const MeshData& mesh,
+                          const GeometryModel& geometry, const std::string& cad,
+                          CurveOptions& options) {
+  if (options.link_by != LinkBy::automatic) return "";
+  if (format == io::Format::automatic) format = io::format_by_name(path);
+  if (format != io::Format::cgns) return "";
+  const std::vector<io::PatchGeometry> families = io::read_cgns_geometry(path);
+  const FamilyLink link = link_by_families(families, mesh, geometry, cad, options.association);
+  for (const std::string& reason : link.left_out) {
+    log(LogLevel::info, "family of patch " + reason + "; it is linked by shape");
+  }
+  if (link.patches == 0) return "";
+  return fmt::format(
+      "the families of the mesh name the CAD faces of {} patches{}", link.patches,
+      link.left_out.empty() ? "" : fmt::format("; not taken: {}", fmt::join(link.left_out, "; ")));
+}
+
+void note_families(const std::string& families, Report& report) {
+  if (families.empty()) return;
+  report.link.method = "families";
+  report.link.reason = families;
 }
 
 }  // namespace camber

@@ -34,11 +34,19 @@ std::map<BlockKey, const ElementBlock*> blocks_by_name(const MeshData& mesh) {
 }  // namespace
 
 int NamedMeshBuilder::entity(int dim, const std::string& name) {
-  const auto [place, is_new] = entity_.try_emplace({dim, name}, 0);
+  const auto known = entity_.find({dim, name});
+  return known != entity_.end() ? known->second : entity(dim, name, last_entity_[dim] + 1);
+}
+
+int NamedMeshBuilder::entity(int dim, const std::string& name, int tag) {
+  const auto [place, is_new] = entity_.try_emplace({dim, name}, tag);
   if (!is_new) return place->second;
-  const int tag = static_cast<int>(std::count_if(
-      entity_.begin(), entity_.end(), [&](const auto& e) { return e.first.first == dim; }));
-  place->second = tag;
+  if (entity_.size() > k_most_entities) {
+    throw FileError(fmt::format("more than {} different patches and volumes", k_most_entities),
+                    mesh_.source, "a number for each element is no patch: leave it out");
+  }
+  last_entity_[dim] = std::max(last_entity_[dim], tag);
+  record_[{dim, tag}] = mesh_.entities.size();
   EntityRecord record;
   record.key = {dim, tag};
   record.name = name;
@@ -53,12 +61,11 @@ void NamedMeshBuilder::add_to_group(int dim, int entity, const std::string& grou
     place->second = ++last_group_[dim];
     mesh_.physical_names.push_back({dim, place->second, group});
   }
-  for (EntityRecord& record : mesh_.entities) {
-    if (record.key != EntityKey{dim, entity}) continue;
-    std::vector<int>& tags = record.physical_tags;
-    if (std::find(tags.begin(), tags.end(), place->second) == tags.end()) {
-      tags.push_back(place->second);
-    }
+  const auto record = record_.find({dim, entity});
+  if (record == record_.end()) return;
+  std::vector<int>& tags = mesh_.entities[record->second].physical_tags;
+  if (std::find(tags.begin(), tags.end(), place->second) == tags.end()) {
+    tags.push_back(place->second);
   }
 }
 

@@ -17,13 +17,20 @@ namespace camber::io {
 /// dimension in the order of first use, one physical group of the same tag and name.
 class NamedMeshBuilder {
  public:
+  /// A file with more has a number for each element, which is no patch; and entities take far more
+  /// memory than their elements do in the file.
+  static constexpr std::size_t k_most_entities = 65536;
+
   explicit NamedMeshBuilder(std::string source) { mesh_.source = std::move(source); }
 
   [[nodiscard]] Points& points() { return mesh_.points; }
   /// What was collected so far.
   [[nodiscard]] MeshData& mesh() { return mesh_; }
-  /// Tag of the entity of that name.
+  [[nodiscard]] const MeshData& mesh() const { return mesh_; }
+  /// Tag of the entity of that name. @throws FileError if there are too many
   [[nodiscard]] int entity(int dim, const std::string& name);
+  /// The same with a tag of the caller's, for entities that none has yet.
+  int entity(int dim, const std::string& name, int tag);
   /// Puts the entity into a further group, such as the family of a boundary condition.
   void add_to_group(int dim, int entity, const std::string& group);
   /// Appends an element with its nodes in canonical order.
@@ -36,7 +43,8 @@ class NamedMeshBuilder {
   MeshData mesh_;
   std::map<std::pair<int, std::string>, int> entity_, group_;
   std::map<std::tuple<int, int, Shape, int>, std::size_t> block_;
-  std::map<int, int> last_group_;
+  std::map<EntityKey, std::size_t> record_;  // index into mesh_.entities
+  std::map<int, int> last_entity_, last_group_;
 };
 
 /// What a format with names can carry of a mesh.

@@ -69,12 +69,21 @@ std::int64_t Cursor::size_value(const char* expected) {
   return static_cast<std::int64_t>(value);
 }
 
-double Cursor::real(const char* expected) {
+template <class Real>
+double Cursor::finite(const char* expected) {
   if (!binary_) return text_real(expected);
   const std::size_t start = at_;
-  const auto value = raw<double>(expected);
+  const auto value = raw<Real>(expected);
   if (!std::isfinite(value)) fail(start, fmt::format("{}", value), expected);
   return value;
+}
+
+double Cursor::real(const char* expected) { return finite<double>(expected); }
+
+double Cursor::short_real(const char* expected) { return finite<float>(expected); }
+
+std::int64_t Cursor::long_value(const char* expected) {
+  return binary_ ? raw<std::int64_t>(expected) : text_integer(expected);
 }
 
 std::size_t Cursor::checked_count(std::int64_t count, std::size_t start, std::size_t text_bytes,

@@ -34,6 +34,12 @@ class Cursor {
   [[nodiscard]] std::int64_t size_value(const char* expected);
   /// A finite number.
   [[nodiscard]] double real(const char* expected);
+  /// Binary: an 8-byte integer with sign. Text: any integer.
+  [[nodiscard]] std::int64_t long_value(const char* expected);
+  /// Binary: a finite number of 4 bytes. Text: any finite number.
+  [[nodiscard]] double short_real(const char* expected);
+  /// Goes to a place in the file, at most its end.
+  void move_to(std::size_t offset) { at_ = offset < text_.size() ? offset : text_.size(); }
   /// Fails unless `count` items of at least the given number of bytes each can still follow;
   /// `start` is where the count stands. So no allocation is ever larger than a small multiple of
   /// the file.
@@ -73,6 +79,8 @@ class Cursor {
   void skip_blanks();
   template <class T>
   [[nodiscard]] T raw(const char* expected);
+  template <class Real>
+  [[nodiscard]] double finite(const char* expected);
 
   std::string path_;
   std::string_view text_;

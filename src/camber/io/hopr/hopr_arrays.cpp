@@ -1,6 +1,7 @@
 #include <camber/base/by_key.hpp>
 #include <camber/base/error.hpp>
 #include <camber/io/detail/mesh_check.hpp>
+#include <camber/io/hopr/hilbert_order.hpp>
 #include <camber/io/hopr/hopr_arrays.hpp>
 
 #include <algorithm>
@@ -43,9 +44,7 @@ class Maker {
     arrays_.elem_counter.resize(2 * k_counted_types, 0);
     for (std::size_t i = 0; i < k_counted_types; ++i) arrays_.elem_counter[2 * i] = k_types[i];
     node_id_.resize(mesh_.points.size(), 0);
-    for (const ElementBlock& b : mesh_.blocks) {
-      if (dimension(b.shape) == 3) add_cells(b);
-    }
+    add_cells();
     for (const ElementBlock& b : mesh_.blocks) {
       if (dimension(b.shape) == 2) add_patch(b);
     }
@@ -70,35 +69,60 @@ class Maker {
     }
   }
 
-  void add_cells(const ElementBlock& b) {
-    const auto per = static_cast<std::size_t>(nodes_per_element(b.shape, b.order));
-    const std::vector<int>& corner = lattice_map(b.shape, b.order).corner;
+  struct Cell {
+    const ElementBlock* block;
+    std::size_t first;  // place of its nodes in the block
+  };
+
+  static std::size_t node_count_of(const ElementBlock& b) {
+    return static_cast<std::size_t>(nodes_per_element(b.shape, b.order));
+  }
+  [[nodiscard]] static std::vector<Index> corners_of(const Cell& cell) {
+    std::vector<Index> v;
+    for (const int c : lattice_map(cell.block->shape, cell.block->order).corner) {
+      v.push_back(cell.block->nodes[cell.first + static_cast<std::size_t>(c)]);
+    }
+    return v;
+  }
+
+  /// Along the curve: solvers give each process a range of the elements.
+  void add_cells() {
+    std::vector<Cell> cells;
+    Points centres;
+    for (const ElementBlock& b : mesh_.blocks) {
+      if (dimension(b.shape) < 3) continue;
+      for (std::size_t e = 0; e < b.nodes.size(); e += node_count_of(b)) {
+        cells.push_back({&b, e});
+        const std::vector<Index> v = corners_of(cells.back());
+        Vec3 centre = Vec3::Zero();
+        for (const Index i : v) centre += mesh_.points[at(i)] / static_cast<double>(v.size());
+        centres.push_back(centre);
+      }
+    }
+    for (const std::size_t c : hilbert_order(centres)) add_cell(cells[c], centres[c]);
+  }
+
+  void add_cell(const Cell& cell, const Vec3& centre) {
+    const ElementBlock& b = *cell.block;
+    const std::size_t per = node_count_of(b);
     const std::int32_t type = element_type(b.shape, b.order);
     const auto place = std::find(k_types.begin(), k_types.end(), type) - k_types.begin();
-    for (std::size_t e = 0; e < b.nodes.size(); e += per) {
-      const auto sides = static_cast<std::int32_t>(arrays_.sides());
-      const auto nodes = static_cast<std::int32_t>(arrays_.nodes());
-      ++arrays_.elem_counter[2 * static_cast<std::size_t>(place) + 1];
-      const auto element = static_cast<std::int32_t>(arrays_.elements()) + 1;
-      arrays_.elem_info.insert(arrays_.elem_info.end(),
-                               {type, b.entity, sides, sides + face_count(b.shape), nodes,
-                                nodes + static_cast<std::int32_t>(per)});
-      std::vector<Index> v;
-      Vec3 centre = Vec3::Zero();
-      for (const int c : corner) {
-        v.push_back(b.nodes[e + static_cast<std::size_t>(c)]);
-        centre += mesh_.points[at(v.back())] / static_cast<double>(corner.size());
-      }
-      arrays_.barycenters.insert(arrays_.barycenters.end(), {centre.x(), centre.y(), centre.z()});
-      for (std::size_t n = 0; n < per; ++n) {
-        const Index i = b.nodes[e + n];
-        const Vec3& x = mesh_.points[at(i)];
-        arrays_.node_coords.insert(arrays_.node_coords.end(), {x.x(), x.y(), x.z()});
-        if (node_id_[at(i)] == 0) node_id_[at(i)] = ++arrays_.unique_nodes;
-        arrays_.node_ids.push_back(node_id_[at(i)]);
-      }
-      add_sides(b.shape, v, element);
+    const auto sides = static_cast<std::int32_t>(arrays_.sides());
+    const auto nodes = static_cast<std::int32_t>(arrays_.nodes());
+    ++arrays_.elem_counter[2 * static_cast<std::size_t>(place) + 1];
+    const auto element = static_cast<std::int32_t>(arrays_.elements()) + 1;
+    arrays_.elem_info.insert(arrays_.elem_info.end(),
+                             {type, b.entity, sides, sides + face_count(b.shape), nodes,
+                              nodes + static_cast<std::int32_t>(per)});
+    arrays_.barycenters.insert(arrays_.barycenters.end(), {centre.x(), centre.y(), centre.z()});
+    for (std::size_t n = 0; n < per; ++n) {
+      const Index i = b.nodes[cell.first + n];
+      const Vec3& x = mesh_.points[at(i)];
+      arrays_.node_coords.insert(arrays_.node_coords.end(), {x.x(), x.y(), x.z()});
+      if (node_id_[at(i)] == 0) node_id_[at(i)] = ++arrays_.unique_nodes;
+      arrays_.node_ids.push_back(node_id_[at(i)]);
     }
+    add_sides(b.shape, corners_of(cell), element);
   }
 
   static std::int32_t face_count(Shape shape) {

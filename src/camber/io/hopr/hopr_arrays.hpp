@@ -30,8 +30,10 @@ struct Arrays {
   [[nodiscard]] std::size_t nodes() const { return node_ids.size(); }
 };
 
-/// Sides are those of CGNS with outward normals, as in shape.hpp; nodes are in lattice order, i
-/// fastest, also for order 1; flip n: the n-th corner of the neighbour's side is the first of mine.
+/// Elements stand in the order of a space-filling curve (hilbert_order.hpp) through the means of
+/// their corners. Sides are those of CGNS with outward normals, as in shape.hpp; nodes are in
+/// lattice order, i fastest, also for order 1; flip n: the n-th corner of the neighbour's side is
+/// the first of mine.
 /// Source: HOPR user guide, "HOPR HDF5 Curved Mesh Format".
 /// The kind of a boundary condition is 0, to be set for the solver, or 100 where a patch lies
 /// inside of the mesh. Boundary faces without a patch get the condition "boundary".

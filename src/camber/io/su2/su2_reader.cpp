@@ -1,7 +1,9 @@
 #include <camber/base/error.hpp>
+#include <camber/base/log.hpp>
 #include <camber/basis/node_order.hpp>
 #include <camber/io/detail/input_file.hpp>
 #include <camber/io/detail/named_mesh.hpp>
+#include <camber/io/detail/prism_direction.hpp>
 #include <camber/io/gmsh/cursor.hpp>
 #include <camber/io/su2/su2_reader.hpp>
 #include <camber/io/su2/su2_types.hpp>
@@ -28,6 +30,7 @@ class Reader {
     if (!has_points_) fail_missing("NPOIN= (the nodes)");
     if (cells_ == 0) fail_missing("NELEM= (the cells)");
     check_nodes();
+    face_prisms_up();
     return builder_.finish();
   }
 
@@ -159,6 +162,26 @@ class Reader {
     if (highest_node_ < static_cast<std::int64_t>(builder_.points().size())) return;
     in_.fail(highest_place_, in_.found(highest_place_),
              fmt::format("a node below {}, the number of nodes", builder_.points().size()));
+  }
+
+  /// VTK's documentation and SU2's own meshes disagree on the direction of linear prisms, and SU2
+  /// turns what it reads. If most are mirrored, that is how the file counts.
+  void face_prisms_up() {
+    constexpr std::size_t k_corners = 6;
+    std::vector<std::span<Index>> prisms;
+    std::size_t mirrored = 0;
+    for (ElementBlock& block : builder_.mesh().blocks) {
+      if (block.shape != Shape::prism || block.order != 1) continue;
+      for (std::size_t e = 0; e < block.nodes.size(); e += k_corners) {
+        prisms.push_back(std::span(block.nodes).subspan(e, k_corners));
+        mirrored += is_mirrored_prism(builder_.points(), 1, prisms.back()) ? 1U : 0U;
+      }
+    }
+    if (2 * mirrored <= prisms.size()) return;
+    for (const std::span<Index> prism : prisms) mirror_prism(1, prism);
+    log(LogLevel::info, fmt::format("{}: linear prisms were turned: most have their first triangle "
+                                    "outwards",
+                                    path_));
   }
 
   static constexpr std::int64_t k_most_nodes = std::numeric_limits<Index>::max();

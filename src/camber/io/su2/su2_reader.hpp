@@ -9,8 +9,9 @@ namespace camber::io {
 
 /// Reads a .su2 file in three dimensions: NELEM, NPOIN, NMARK in any order, other keys skipped. An
 /// element's code is VTK type + 100 (order - 1), further thousands (the solution's order) are
-/// dropped. Every marker is a patch of its name; partitioned files (SEND_RECEIVE) are refused. All
-/// cells belong to one volume "volume".
+/// dropped. Linear prisms are taken mirrored if most of the file have a negative volume, as
+/// programs differ. Every marker is a patch of its name; partitioned files (SEND_RECEIVE) are
+/// refused. All cells belong to one volume "volume".
 /// @throws FileError naming path and line, what was found, what was expected
 /// Cost: linear in the file, which is held in memory. Any thread.
 [[nodiscard]] MeshData read_su2(const std::string& path);

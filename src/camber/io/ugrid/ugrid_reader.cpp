@@ -17,27 +17,6 @@ namespace camber::io {
 namespace ugrid {
 namespace {
 
-/// Patch names by tag: a count, then "tag boundary_condition name" a line; the name may be missing.
-std::map<std::int64_t, std::string> read_mapbc(const std::string& path, std::string_view text) {
-  std::map<std::int64_t, std::string> names;
-  gmsh::Cursor in(path, text);
-  if (in.at_end()) return names;
-  const std::size_t place = in.next_word();
-  const std::size_t count = in.checked_count(in.text_integer("the number of patches"), place, 4, 4,
-                                             "a number of patches");
-  in.skip_line();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t tag = in.text_integer("the tag of a patch");
-    static_cast<void>(in.word("a boundary condition"));
-    const std::string_view line = text.substr(in.offset());
-    const std::size_t end = std::min(line.find('\n'), line.size());
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first < end) names[tag] = std::string(in.word("a name"));
-    in.skip_line();
-  }
-  return names;
-}
-
 class Reader {
  public:
   Reader(const std::string& path, std::string_view bytes, std::map<std::int64_t, std::string> names)
@@ -159,8 +138,28 @@ class Reader {
 }  // namespace
 }  // namespace ugrid
 
+std::map<std::int64_t, std::string> parse_mapbc(const std::string& path, std::string_view text) {
+  std::map<std::int64_t, std::string> names;
+  gmsh::Cursor in(path, text);
+  if (in.at_end()) return names;
+  const std::size_t place = in.next_word();
+  const std::size_t count = in.checked_count(in.text_integer("the number of patches"), place, 4, 4,
+                                             "a number of patches");
+  in.skip_line();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t tag = in.text_integer("the tag of a patch");
+    static_cast<void>(in.word("a boundary condition"));
+    const std::string_view line = text.substr(in.offset());
+    const std::size_t end = std::min(line.find('\n'), line.size());
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first < end) names[tag] = std::string(in.word("a name"));
+    in.skip_line();
+  }
+  return names;
+}
+
 MeshData parse_ugrid(const std::string& path, std::string_view bytes, std::string_view mapbc) {
-  return ugrid::Reader(path, bytes, ugrid::read_mapbc(ugrid::mapbc_path(path), mapbc)).run();
+  return ugrid::Reader(path, bytes, parse_mapbc(ugrid::mapbc_path(path), mapbc)).run();
 }
 
 MeshData read_ugrid(const std::string& path) {

@@ -2,6 +2,8 @@
 // UGRID files of AFLR3 and its many readers; linear.
 #include <camber/mesh/mesh_data.hpp>
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -18,5 +20,10 @@ namespace camber::io {
 /// The same from memory; the kind follows from the name. `mapbc` may be empty.
 [[nodiscard]] MeshData parse_ugrid(const std::string& path, std::string_view bytes,
                                    std::string_view mapbc);
+
+/// Patch names by tag as a .mapbc file gives them: a count, then "tag boundary_condition name" a
+/// line; the name may be missing. @throws FileError
+[[nodiscard]] std::map<std::int64_t, std::string> parse_mapbc(const std::string& path,
+                                                              std::string_view text);
 
 }  // namespace camber::io

@@ -3,6 +3,7 @@
 #include <camber/basis/node_order.hpp>
 #include <camber/io/detail/input_file.hpp>
 #include <camber/io/detail/named_mesh.hpp>
+#include <camber/io/detail/prism_direction.hpp>
 #include <camber/io/vtu/vtu_arrays.hpp>
 #include <camber/io/vtu/vtu_reader.hpp>
 
@@ -242,26 +243,9 @@ class Reader {
   /// By VTK's documentation the first triangle of a linear wedge looks outwards, by the habit of
   /// many programs inwards: the volume tells.
   [[nodiscard]] std::vector<Index> wedge_nodes(CellType kind, const std::vector<Index>& file) {
-    const auto volume = [&](const std::vector<Index>& nodes) {
-      const auto x = [&](int i) {
-        const int corner =
-            lattice_map(Shape::prism, kind.order).corner[static_cast<std::size_t>(i)];
-        return builder_.points()[at(nodes[static_cast<std::size_t>(corner)])];
-      };
-      const Vec3 up = x(3) + x(4) + x(5) - x(0) - x(1) - x(2);
-      return Vec3(x(1) - x(0)).cross(Vec3(x(2) - x(0))).dot(up);
-    };
     std::vector<Index> nodes = ordered(kind, file);
-    if (volume(nodes) >= 0.0) return nodes;
-    // Mirrored: corners 1 and 2 of both triangles change places, and so do the lattice's i and j.
-    std::vector<Index> mirrored(nodes.size());
-    const std::span<const LatticePoint> points = lattice(Shape::prism, kind.order);
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const LatticePoint& l = points[n];
-      const int twin = lattice_index(Shape::prism, kind.order, {l[1], l[0], l[2]});
-      mirrored[static_cast<std::size_t>(twin)] = nodes[n];
-    }
-    return mirrored;
+    if (is_mirrored_prism(builder_.points(), kind.order, nodes)) mirror_prism(kind.order, nodes);
+    return nodes;
   }
 
   [[nodiscard]] std::vector<Index> pyramid_nodes(std::size_t c, const std::vector<Index>& file) {
