@@ -134,6 +134,14 @@ FeatureOptions features_of(const CurveFlags& flags) {
   return {flags.feature_angle, flags.feature_angle};
 }
 
+/// An output can hold element fields.
+bool takes_fields(const CurveFlags& flags) {
+  const io::Format stated = flags.format.writing().format;
+  return std::any_of(flags.outputs.begin(), flags.outputs.end(), [&](const std::string& path) {
+    return (stated == io::Format::automatic ? io::format_by_name(path) : stated) == io::Format::vtu;
+  });
+}
+
 /// Writes all outputs, each verified before it replaces anything. @return seconds spent verifying
 double write_all(const MeshData& mesh, const CurveFlags& flags, bool is_certified,
                  bool has_cad_tags) {
@@ -181,7 +189,7 @@ int run(const CurveFlags& flags) {
   ProgressLine line(flags.common.shows_progress());
   line.show("read", 0.0);
   try_inputs(flags.isolation, flags.mesh, flags.format.reading(), flags.geometry);
-  const MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
+  MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   stop_if_interrupted();
   const std::size_t expected_bytes = foresee_memory(mesh, flags);
   std::unique_ptr<GeometryModel> geometry;
@@ -197,9 +205,9 @@ int run(const CurveFlags& flags) {
                                    : "";
   const double reading = seconds_since(begin);
 
-  CurveResult result = geometry
-                           ? curve(mesh, *geometry, options, line.progress())
-                           : curve_without_cad(mesh, features_of(flags), options, line.progress());
+  CurveResult result =
+      geometry ? curve(std::move(mesh), *geometry, options, line.progress())
+               : curve_without_cad(std::move(mesh), features_of(flags), options, line.progress());
   Report& report = result.report;
   report.input.mesh = flags.mesh;
   report.estimated_bytes = expected_bytes;
@@ -212,7 +220,10 @@ int run(const CurveFlags& flags) {
   if (is_certified || options.allow_invalid) {
     line.show("write", 1.0);
     const Clock::time_point start = Clock::now();
-    const MeshData curved = exported(result, options);
+    // The page looks at the result again.
+    const MeshData curved = flags.page.empty()
+                                ? exported(std::move(result), options, takes_fields(flags))
+                                : exported(result, options);
     const double verifying = write_all(curved, flags, is_certified, report.link.method == "tags");
     report.output.path = fmt::format("{}", fmt::join(flags.outputs, ", "));
     report.output.nodes = curved.points.size();

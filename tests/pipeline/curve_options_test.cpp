@@ -26,7 +26,7 @@ std::size_t nodes_above_order_one(const CurveResult& result) {
 TEST(CurveBits, DoNotDependOnThreadsNorOnTheRun) {
   for (const char* name : {"ball", "elbow"}) {
     std::vector<Bits> seen;
-    for (int threads : {1, 2, 4, 1}) {
+    for (int threads : {1, 2, 4, 8, 1}) {
       const ThreadLimit limit(threads);
       seen.push_back(bits_of(curve_case(name, order(3))));
     }
@@ -37,11 +37,12 @@ TEST(CurveBits, DoNotDependOnThreadsNorOnTheRun) {
 
 TEST(CurveBits, OfTheWingDoNotDependOnThreads) {
   std::vector<Bits> seen;
-  for (int threads : {1, 4}) {
+  for (int threads : {1, 4, 8}) {
     const ThreadLimit limit(threads);
     seen.push_back(bits_of(curve_case("wing", order(2))));
   }
   EXPECT_EQ(seen[1], seen[0]);
+  EXPECT_EQ(seen[2], seen[0]);
 }
 
 TEST(CurveOptions, OrderOneLeavesTheMeshLinear) {

@@ -9,6 +9,10 @@ namespace {
 
 constexpr Index k_leaf_size = 4;
 
+/// Room that a bound of a squared distance leaves for rounding: relative to it, and to the square
+/// of the distance from the origin.
+constexpr double k_bound_slack = 1.0 + 1e-9, k_rounding = 1e-20;
+
 double squared_distance_to_box(const Vec3& x, const Vec3& lower, const Vec3& upper) {
   return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).squaredNorm();
 }
@@ -182,11 +186,27 @@ struct PerLabelVisit {
 }  // namespace
 
 bool FaceTree::nearest(const Vec3& x, double radius, FaceHit& hit) const {
-  NearestVisit visit{{}, radius * radius};
+  // Any point of the faces bounds the distance, and the last one found is mostly near. The bound
+  // only spares boxes, with room for rounding: the answer has the same bits without it.
+  thread_local const FaceTree* last_tree = nullptr;
+  thread_local Vec3 last_point = Vec3::Zero();
+  const double everywhere = radius * radius;
+  double limit = everywhere;
+  if (last_tree == this) {
+    limit = std::min(limit,
+                     k_bound_slack * (x - last_point).squaredNorm() + k_rounding * x.squaredNorm());
+  }
+  NearestVisit visit{{}, limit};
   search(x, visit);
+  if (visit.best.item == k_none && limit < everywhere) {
+    visit.limit = everywhere;
+    search(x, visit);
+  }
   if (visit.best.item == k_none) return false;
   hit = visit.best;
   hit.distance = std::sqrt(hit.distance);
+  last_tree = this;
+  last_point = hit.point;
   return true;
 }
 

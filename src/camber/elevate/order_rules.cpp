@@ -69,32 +69,47 @@ class Shapes {
   Points points_;
 };
 
-/// Displacements of the insides of all edges at the orders 2..top, each asked of the field once:
-/// about five faces share an edge.
+/// Displacements of the insides of edges at the orders 2..top, each asked of the field once: about
+/// five faces share an edge. Edges that do not move, mostly far ones, take no room.
 class EdgeMoves {
  public:
   EdgeMoves(std::size_t edge_count, int top)
-      : per_edge_(first(top + 1)), u_(edge_count * per_edge_), lowest_(edge_count, 255) {}
+      : top_(top),
+        place_(edge_count, k_none),
+        lowest_(edge_count, static_cast<std::uint8_t>(top)),
+        chunks_((edge_count + k_grain - 1) / k_grain),
+        zero_(sz(top), Vec3::Zero()) {}
 
-  /// To be filled from the highest order down.
-  [[nodiscard]] std::span<Vec3> fill(Index e, int q) {
-    lowest_[at(e)] = static_cast<std::uint8_t>(q);
-    return {u_.data() + at(e) * per_edge_ + first(q), sz(q - 1)};
+  /// Keeps what is known of an edge: the orders lowest..top in a list that starts with the highest.
+  /// Edges of one chunk of k_grain by one thread, in order.
+  void keep(Index e, int lowest, std::span<const Vec3> moves) {
+    lowest_[at(e)] = static_cast<std::uint8_t>(lowest);
+    if (std::all_of(moves.begin(), moves.end(), [](const Vec3& u) { return u.isZero(0.0); })) {
+      return;
+    }
+    Points& chunk = chunks_[at(e) / k_grain];
+    place_[at(e)] = static_cast<Index>(chunk.size());
+    chunk.insert(chunk.end(), moves.begin(), moves.end());
   }
-  /// What was filled in, or what the field says where the edge was found still before.
+  /// What was kept, or what the field says where the edge was found still before.
   [[nodiscard]] std::span<const Vec3> at_order(const LayerField& field, Index e, int q,
                                                std::span<Vec3> room) const {
-    if (q >= lowest_[at(e)]) return {u_.data() + at(e) * per_edge_ + first(q), sz(q - 1)};
-    field.edge(e, q, room.first(sz(q - 1)));
-    return room.first(sz(q - 1));
+    if (q < lowest_[at(e)]) {
+      field.edge(e, q, room.first(sz(q - 1)));
+      return room.first(sz(q - 1));
+    }
+    if (place_[at(e)] == k_none) return {zero_.data(), sz(q - 1)};
+    return {chunks_[at(e) / k_grain].data() + place_[at(e)] + first(q), sz(q - 1)};
   }
+  /// Place of order q in the list of an edge.
+  [[nodiscard]] std::ptrdiff_t first(int q) const { return (top_ * (top_ - 1) - q * (q - 1)) / 2; }
 
  private:
-  static std::size_t first(int q) { return sz((q - 1) * (q - 2) / 2); }
-
-  std::size_t per_edge_;
-  Points u_;
+  int top_;
+  std::vector<Index> place_;  // in its chunk, -1: all zero
   std::vector<std::uint8_t> lowest_;
+  std::vector<Points> chunks_;
+  Points zero_;
 };
 
 /// Full displacement lattice of a face at order q, from the field on its edges and inside.
@@ -189,19 +204,24 @@ StandIns find_stand_ins(const Topology& topology, const LayerField& field,
   parallel_for(topology.edge_count(), k_grain, [&](std::size_t begin, std::size_t end) {
     Shapes shapes(Shape::line, top);
     std::array<Vec3, 8> u;
-    for (std::size_t e = begin; e < end; ++e) {
-      const double most = allowed(topology.cells_of_edge(static_cast<Index>(e)));
-      result.edge[e].fill(1);
+    std::array<Vec3, 36> all;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index e = static_cast<Index>(i);
+      const double most = allowed(topology.cells_of_edge(e));
+      result.edge[i].fill(1);
+      int lowest = top;
       for (int q = top; q >= 2; --q) {
         const std::span<Vec3> line(u.data(), sz(q + 1));
         line.front() = line.back() = Vec3::Zero();
-        const std::span<Vec3> inside = moves.fill(static_cast<Index>(e), q);
-        field.edge(static_cast<Index>(e), q, inside);
+        const std::span<Vec3> inside(all.data() + moves.first(q), sz(q - 1));
+        field.edge(e, q, inside);
+        lowest = q;
         std::copy(inside.begin(), inside.end(), line.begin() + 1);
         if (q == top && is_still(line, most)) break;
         shapes.set(q, line);
-        if (q == 2) result.edge[e] = shapes.stand_in(most);
+        if (q == 2) result.edge[i] = shapes.stand_in(most);
       }
+      moves.keep(e, lowest, {all.data(), static_cast<std::size_t>(moves.first(lowest - 1))});
     }
   });
   parallel_for(topology.face_count(), k_grain, [&](std::size_t begin, std::size_t end) {

@@ -1,9 +1,11 @@
 #include <camber/base/assert.hpp>
+#include <camber/base/error.hpp>
 #include <camber/base/parallel.hpp>
 #include <camber/basis/lagrange.hpp>
 #include <camber/mesh/curved_mesh.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace camber {
@@ -25,6 +27,11 @@ void apply(const MatX& matrix, std::span<const Vec3> in, std::span<Vec3> out) {
 
 std::size_t own_count(Shape shape, int q) {
   return q < 2 ? 0 : lattice_map(shape, q).interior.size();
+}
+
+[[noreturn]] void refuse_size() {
+  throw MeshError("the curved mesh has more than 2147483647 nodes above order 1", "",
+                  "choose a lower order or a smaller mesh");
 }
 
 }  // namespace
@@ -54,14 +61,15 @@ CurvedMesh::CurvedMesh(const LinearMesh& mesh, const Topology& topology, OrderFi
 }
 
 void CurvedMesh::allocate() {
-  std::int64_t next = 0;
-  const auto add = [&](std::vector<std::int64_t>& offset, std::size_t count, auto nodes_of) {
-    offset.assign(count + 1, 0);
+  std::size_t next = 0;
+  const auto add = [&](std::vector<Index>& offset, std::size_t count, auto nodes_of) {
+    offset.resize(count + 1);
     for (std::size_t i = 0; i < count; ++i) {
-      offset[i] = next;
-      next += static_cast<std::int64_t>(nodes_of(i));
+      offset[i] = static_cast<Index>(next);
+      next += nodes_of(i);
+      if (next > static_cast<std::size_t>(std::numeric_limits<Index>::max())) refuse_size();
     }
-    offset[count] = next;
+    offset[count] = static_cast<Index>(next);
   };
   add(edge_offset_, topology_->edge_count(),
       [&](std::size_t e) { return own_count(Shape::line, orders_.edge[e]); });
@@ -69,7 +77,7 @@ void CurvedMesh::allocate() {
       [&](std::size_t f) { return own_count(topology_->face_shape[f], orders_.face[f]); });
   add(cell_offset_, mesh_->cell_count(),
       [&](std::size_t c) { return own_count(mesh_->cell_shape[c], orders_.cell[c]); });
-  nodes_.assign(static_cast<std::size_t>(next), Vec3::Zero());
+  nodes_.assign(next, Vec3::Zero());
 }
 
 void CurvedMesh::straighten() {

@@ -58,23 +58,19 @@ class CurvedMesh {
   /// All nodes above order 1, edges first, then faces, then cells, and where an entity's own begin.
   [[nodiscard]] std::span<Vec3> high_order_nodes() { return nodes_; }
   [[nodiscard]] std::span<const Vec3> high_order_nodes() const { return nodes_; }
+  /// Frees the nodes, for who has taken them elsewhere: nothing may be asked of them after.
+  void release_nodes() { nodes_ = {}; }
   [[nodiscard]] std::size_t high_order_node_count() const { return nodes_.size(); }
-  [[nodiscard]] Index first_edge_node(Index e) const {
-    return static_cast<Index>(edge_offset_[at(e)]);
-  }
-  [[nodiscard]] Index first_face_node(Index f) const {
-    return static_cast<Index>(face_offset_[at(f)]);
-  }
-  [[nodiscard]] Index first_cell_node(Index c) const {
-    return static_cast<Index>(cell_offset_[at(c)]);
-  }
+  [[nodiscard]] Index first_edge_node(Index e) const { return edge_offset_[at(e)]; }
+  [[nodiscard]] Index first_face_node(Index f) const { return face_offset_[at(f)]; }
+  [[nodiscard]] Index first_cell_node(Index c) const { return cell_offset_[at(c)]; }
 
  private:
-  [[nodiscard]] std::span<Vec3> own(const std::vector<std::int64_t>& offset, Index i) {
+  [[nodiscard]] std::span<Vec3> own(const std::vector<Index>& offset, Index i) {
     return {nodes_.data() + offset[at(i)],
             static_cast<std::size_t>(offset[at(i) + 1] - offset[at(i)])};
   }
-  [[nodiscard]] std::span<const Vec3> own(const std::vector<std::int64_t>& offset, Index i) const {
+  [[nodiscard]] std::span<const Vec3> own(const std::vector<Index>& offset, Index i) const {
     return {nodes_.data() + offset[at(i)],
             static_cast<std::size_t>(offset[at(i) + 1] - offset[at(i)])};
   }
@@ -84,7 +80,7 @@ class CurvedMesh {
   const LinearMesh* mesh_;
   const Topology* topology_;
   OrderField orders_;
-  std::vector<std::int64_t> edge_offset_, face_offset_, cell_offset_;
+  std::vector<Index> edge_offset_, face_offset_, cell_offset_;
   Points nodes_;
 };
 

@@ -21,5 +21,8 @@ struct ExportMap {
 /// @throws OptionError if uniform_order is below the order of some cell.
 [[nodiscard]] MeshData export_mesh(const CurvedMesh& curved, int uniform_order = 0,
                                    ExportMap* map = nullptr);
+/// The same for less memory: the nodes of `curved` are given up on the way, its orders stay.
+[[nodiscard]] MeshData export_mesh(CurvedMesh&& curved, int uniform_order = 0,
+                                   ExportMap* map = nullptr);
 
 }  // namespace camber

@@ -45,6 +45,26 @@ void append_block(const ElementBlock& block, LinearMesh& mesh) {
   }
 }
 
+/// Room for all cells and surface elements, so that nothing grows by doubling.
+void reserve_elements(const MeshData& data, LinearMesh& mesh) {
+  std::size_t cells = 0, corners = 0, faces = 0;
+  for (const ElementBlock& block : data.blocks) {
+    const int dim = dimension(block.shape);
+    if (dim == 2) faces += block.size();
+    if (dim != 3) continue;
+    cells += block.size();
+    corners += block.size() * static_cast<std::size_t>(corner_count(block.shape));
+  }
+  mesh.cell_shape.reserve(cells);
+  mesh.cell_offset.reserve(cells + 1);
+  mesh.cell_vertices.reserve(corners);
+  mesh.cell_region.reserve(cells);
+  mesh.cell_tags.reserve(cells);
+  mesh.patch_face_shape.reserve(faces);
+  mesh.patch_face_vertices.reserve(faces);
+  mesh.patch_face_entity.reserve(faces);
+}
+
 void drop_unused_vertices(LinearMesh& mesh) {
   std::vector<Index> new_index(mesh.vertices.size(), k_none);
   for (Index v : mesh.cell_vertices) new_index[at(v)] = 0;
@@ -148,6 +168,7 @@ LinearMesh build_linear_mesh(const MeshData& data) {
   mesh.vertex_entity.resize(mesh.vertices.size());
   mesh.entities = data.entities;
   mesh.physical_names = data.physical_names;
+  reserve_elements(data, mesh);
   mesh.cell_offset.push_back(0);
   for (const ElementBlock& block : data.blocks) {
     if (block.order > 1 && dimension(block.shape) == 3) {

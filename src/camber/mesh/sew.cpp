@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <numeric>
 #include <tuple>
 #include <vector>
@@ -11,6 +13,29 @@ namespace camber {
 namespace {
 
 std::tuple<double, double, double> coordinates(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
+
+/// True if two vertices are at one place. One pass with a hash: sorting them all costs more than
+/// the rest of reading, and hardly any mesh has such vertices.
+bool has_twins(const Points& vertices) {
+  std::size_t places = 16;
+  while (places < 2 * vertices.size()) places *= 2;
+  std::vector<Index> table(places, k_none);
+  for (Index v = 0; at(v) < vertices.size(); ++v) {
+    const Vec3& x = vertices[at(v)];
+    std::uint64_t hash = 0;
+    for (double c : x) {
+      // Adding zero makes one zero of both.
+      hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15ULL;
+      hash ^= hash >> 29;
+    }
+    std::size_t place = hash & (places - 1);
+    for (; table[place] != k_none; place = (place + 1) & (places - 1)) {
+      if (vertices[at(table[place])] == x) return true;
+    }
+    table[place] = v;
+  }
+  return false;
+}
 
 /// Groups of two or more vertices at one place, each sorted by index.
 std::vector<std::vector<Index>> coincident_groups(const Points& vertices) {
@@ -76,6 +101,7 @@ std::vector<std::uint8_t> vertices_of_loose_faces(const LinearMesh& mesh) {
 }  // namespace
 
 std::size_t sew_coincident_vertices(LinearMesh& mesh) {
+  if (!has_twins(mesh.vertices)) return 0;
   const std::vector<std::vector<Index>> groups = coincident_groups(mesh.vertices);
   if (groups.empty()) return 0;
   const std::vector<std::uint8_t> is_loose = vertices_of_loose_faces(mesh);

@@ -5,6 +5,8 @@
 #include <camber/mesh/topology.hpp>
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -29,50 +31,84 @@ int compared(const std::array<Index, N>& a, const std::array<Index, N>& b) {
 }
 
 /// Uses by smallest vertex, each bucket sorted by the other corners and then by slot: the order of
-/// sorted corner keys, without sorting all at once.
+/// sorted corner keys, without sorting all at once. Edges or faces are numbered in that order.
 template <std::size_t N>
 class Buckets {
  public:
-  /// @param each_use  calls its argument with key, cell and slot of every use; runs twice
+  /// @param each_use  calls its last argument with key, cell and slot of every use by the cells of
+  ///                  a range; runs twice, for several ranges at once
   template <class EachUse>
-  Buckets(std::size_t vertices, const EachUse& each_use) : first_(vertices + 1, 0) {
-    each_use([&](const CornerKey& key, Index, Index) { ++first_[at(key.v[0]) + 1]; });
+  Buckets(std::size_t vertices, std::size_t cells, const EachUse& each_use)
+      : first_(vertices + 1, 0), before_((vertices + k_chunk - 1) / k_chunk + 1, 0) {
+    const auto all_uses = [&](const auto& take) {
+      parallel_for(cells, k_chunk, [&](std::size_t begin, std::size_t end) {
+        each_use(static_cast<Index>(begin), static_cast<Index>(end), take);
+      });
+    };
+    // Counts do not depend on the order of adding, and buckets are sorted after.
+    const auto add_one = [](Index& count) {
+      return std::atomic_ref<Index>(count).fetch_add(1, std::memory_order_relaxed);
+    };
+    all_uses([&](const CornerKey& key, Index, Index) { add_one(first_[at(key.v[0]) + 1]); });
     for (std::size_t v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
-    uses_.resize(at(first_.back()));
-    std::vector<Index> next(first_.begin(), first_.end() - 1);
-    each_use([&](const CornerKey& key, Index cell, Index slot) {
-      Use<N>& use = uses_[at(next[at(key.v[0])]++)];
-      std::copy_n(key.v.begin() + 1, N, use.rest.begin());
-      use.cell = cell;
-      use.slot = slot;
-    });
-    parallel_for(vertices, 4096, [&](std::size_t begin, std::size_t end) {
+    size_ = at(first_.back());
+    uses_ = std::make_unique_for_overwrite<Use<N>[]>(size_);
+    {
+      std::vector<Index> next(first_.begin(), first_.end() - 1);
+      all_uses([&](const CornerKey& key, Index cell, Index slot) {
+        Use<N>& use = uses_[at(add_one(next[at(key.v[0])]))];
+        std::copy_n(key.v.begin() + 1, N, use.rest.begin());
+        use.cell = cell;
+        use.slot = slot;
+      });
+    }
+    parallel_for(vertices, k_chunk, [&](std::size_t begin, std::size_t end) {
+      Index found = 0;
       for (std::size_t v = begin; v < end; ++v) {
-        std::sort(uses_.begin() + first_[v], uses_.begin() + first_[v + 1],
+        std::sort(uses_.get() + first_[v], uses_.get() + first_[v + 1],
                   [](const Use<N>& a, const Use<N>& b) {
                     const int order = compared(a.rest, b.rest);
                     return order != 0 ? order < 0 : a.slot < b.slot;
                   });
+        for (Index i = first_[v]; i < first_[v + 1]; ++i) found += is_new(v, i);
+      }
+      before_[begin / k_chunk + 1] = found;
+    });
+    for (std::size_t chunk = 1; chunk < before_.size(); ++chunk) {
+      before_[chunk] += before_[chunk - 1];
+    }
+  }
+
+  /// Calls visit(number, place, smallest vertex, use, is_new) for every use, in order within an
+  /// edge or face; is_new for the first use of each, place among all uses. Runs parallel.
+  template <class Visit>
+  void visit_all(const Visit& visit) const {
+    parallel_for(first_.size() - 1, k_chunk, [&](std::size_t begin, std::size_t end) {
+      Index number = before_[begin / k_chunk] - 1;
+      for (std::size_t v = begin; v < end; ++v) {
+        for (Index i = first_[v]; i < first_[v + 1]; ++i) {
+          const bool starts = is_new(v, i);
+          number += starts;
+          visit(number, i, static_cast<Index>(v), uses_[at(i)], starts);
+        }
       }
     });
   }
-
-  /// Calls visit(smallest vertex, use, is_new): is_new for the first use of an edge or face.
-  template <class Visit>
-  void in_order(const Visit& visit) const {
-    for (std::size_t v = 0; v + 1 < first_.size(); ++v) {
-      for (Index i = first_[v]; i < first_[v + 1]; ++i) {
-        const bool is_new =
-            i == first_[v] || compared(uses_[at(i)].rest, uses_[at(i) - 1].rest) != 0;
-        visit(static_cast<Index>(v), uses_[at(i)], is_new);
-      }
-    }
-  }
-  [[nodiscard]] std::size_t size() const { return uses_.size(); }
+  /// Uses, and edges or faces.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t count() const { return at(before_.back()); }
 
  private:
-  std::vector<Index> first_;
-  std::vector<Use<N>> uses_;
+  static constexpr std::size_t k_chunk = 4096;
+
+  [[nodiscard]] bool is_new(std::size_t v, Index i) const {
+    return i == first_[v] || compared(uses_[at(i)].rest, uses_[at(i) - 1].rest) != 0;
+  }
+
+  std::vector<Index> first_;   // by vertex
+  std::vector<Index> before_;  // by chunk of vertices: edges or faces before it
+  std::size_t size_ = 0;
+  std::unique_ptr<Use<N>[]> uses_;
 };
 
 /// Corners of a face in its frame, from any cyclic listing.
@@ -114,35 +150,43 @@ std::span<const Index> used(const std::array<Index, 4>& v, Shape shape) {
   return {v.data(), shape == Shape::triangle ? std::size_t{3} : std::size_t{4}};
 }
 
-void build_edges(const LinearMesh& mesh, Topology& topology) {
-  topology.cell2edge_offset.push_back(0);
-  for (Shape shape : mesh.cell_shape) {
-    topology.cell2edge_offset.push_back(topology.cell2edge_offset.back() +
-                                        static_cast<Index>(edges(shape).size()));
+/// By cell: number of its edges or faces, summed.
+template <class Count>
+std::vector<Index> offsets(const LinearMesh& mesh, const Count& count) {
+  std::vector<Index> offset(mesh.cell_count() + 1, 0);
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    offset[c + 1] = offset[c] + static_cast<Index>(count(mesh.cell_shape[c]));
   }
+  return offset;
+}
+
+void build_edges(const LinearMesh& mesh, Topology& topology) {
+  topology.cell2edge_offset = offsets(mesh, [](Shape shape) { return edges(shape).size(); });
   topology.cell2edge_reversed.resize(at(topology.cell2edge_offset.back()));
-  const Buckets<1> buckets(mesh.vertices.size(), [&](const auto& use) {
-    Index slot = 0;
-    for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
-      for (const std::array<int, 2>& edge : edges(mesh.cell_shape[at(c)])) {
-        const Index a = mesh.cell(c)[static_cast<std::size_t>(edge[0])],
-                    b = mesh.cell(c)[static_cast<std::size_t>(edge[1])];
-        topology.cell2edge_reversed[at(slot)] = a > b;
-        use(CornerKey{{std::min(a, b), std::max(a, b), -1, -1}}, c, slot++);
-      }
-    }
-  });
+  const Buckets<1> buckets(
+      mesh.vertices.size(), mesh.cell_count(), [&](Index begin, Index end, const auto& use) {
+        Index slot = topology.cell2edge_offset[at(begin)];
+        for (Index c = begin; c < end; ++c) {
+          for (const std::array<int, 2>& edge : edges(mesh.cell_shape[at(c)])) {
+            const Index a = mesh.cell(c)[static_cast<std::size_t>(edge[0])],
+                        b = mesh.cell(c)[static_cast<std::size_t>(edge[1])];
+            topology.cell2edge_reversed[at(slot)] = a > b;
+            use(CornerKey{{std::min(a, b), std::max(a, b), -1, -1}}, c, slot++);
+          }
+        }
+      });
   topology.cell2edge.resize(buckets.size());
-  topology.edge2cell.reserve(buckets.size());
-  buckets.in_order([&](Index low, const Use<1>& use, bool is_new) {
+  topology.edge2cell.resize(buckets.size());
+  topology.edge2vertex.resize(buckets.count());
+  topology.edge2cell_offset.assign(buckets.count() + 1, static_cast<Index>(buckets.size()));
+  buckets.visit_all([&](Index e, Index place, Index low, const Use<1>& use, bool is_new) {
     if (is_new) {
-      topology.edge2cell_offset.push_back(static_cast<Index>(topology.edge2cell.size()));
-      topology.edge2vertex.push_back({low, use.rest[0]});
+      topology.edge2cell_offset[at(e)] = place;
+      topology.edge2vertex[at(e)] = {low, use.rest[0]};
     }
-    topology.cell2edge[at(use.slot)] = static_cast<Index>(topology.edge2vertex.size() - 1);
-    topology.edge2cell.push_back(use.cell);
+    topology.cell2edge[at(use.slot)] = e;
+    topology.edge2cell[at(place)] = use.cell;
   });
-  topology.edge2cell_offset.push_back(static_cast<Index>(topology.edge2cell.size()));
 }
 
 [[noreturn]] void refuse_shared_face(const LinearMesh& mesh, Index a, Index b, Index c) {
@@ -171,48 +215,46 @@ void link_face_edges(Topology& topology) {
 }
 
 void build_faces(const LinearMesh& mesh, Topology& topology) {
-  topology.cell2face_offset.push_back(0);
-  for (Shape shape : mesh.cell_shape) {
-    topology.cell2face_offset.push_back(topology.cell2face_offset.back() +
-                                        static_cast<Index>(faces(shape).size()));
-  }
-  const Buckets<3> buckets(mesh.vertices.size(), [&](const auto& use) {
-    Index slot = 0;
-    for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
-      for (const LocalFace& face : faces(mesh.cell_shape[at(c)])) {
-        const std::array<Index, 4> v = corners_of(mesh, c, face);
-        use(corner_key(used(v, face.shape)), c, slot++);
-      }
-    }
-  });
+  topology.cell2face_offset = offsets(mesh, [](Shape shape) { return faces(shape).size(); });
+  const Buckets<3> buckets(mesh.vertices.size(), mesh.cell_count(),
+                           [&](Index begin, Index end, const auto& use) {
+                             Index slot = topology.cell2face_offset[at(begin)];
+                             for (Index c = begin; c < end; ++c) {
+                               for (const LocalFace& face : faces(mesh.cell_shape[at(c)])) {
+                                 const std::array<Index, 4> v = corners_of(mesh, c, face);
+                                 use(corner_key(used(v, face.shape)), c, slot++);
+                               }
+                             }
+                           });
   topology.cell2face.resize(buckets.size());
   topology.cell2face_view.resize(buckets.size());
-  buckets.in_order([&](Index, const Use<3>& here, bool is_new) {
+  topology.face_shape.resize(buckets.count());
+  topology.face2vertex.resize(buckets.count());
+  topology.face2cell.resize(buckets.count());
+  buckets.visit_all([&](Index f, Index, Index, const Use<3>& here, bool is_new) {
     const std::size_t local =
         static_cast<std::size_t>(here.slot - topology.cell2face_offset[at(here.cell)]);
     const LocalFace& face = faces(mesh.cell_shape[at(here.cell)])[local];
     const std::array<Index, 4> v = corners_of(mesh, here.cell, face);
+    std::array<Index, 2>& cells = topology.face2cell[at(f)];
     if (is_new) {
-      topology.face_shape.push_back(face.shape);
-      topology.face2vertex.push_back(frame_of(used(v, face.shape)));
-      topology.face2cell.push_back({here.cell, k_none});
+      topology.face_shape[at(f)] = face.shape;
+      topology.face2vertex[at(f)] = frame_of(used(v, face.shape));
+      cells = {here.cell, k_none};
     } else {
-      std::array<Index, 2>& cells = topology.face2cell.back();
       if (cells[1] != k_none) refuse_shared_face(mesh, cells[0], cells[1], here.cell);
       cells[1] = here.cell;
     }
-    topology.cell2face[at(here.slot)] = static_cast<Index>(topology.face_shape.size() - 1);
-    const int view = face_view(face.shape, used(v, face.shape), topology.face2vertex.back());
+    topology.cell2face[at(here.slot)] = f;
+    const int view = face_view(face.shape, used(v, face.shape), topology.face2vertex[at(f)]);
     if (view < 0) {
       throw MeshError(
           fmt::format("cells {} and {} share four vertices but walk the face differently",
-                      mesh.cell_tags[at(topology.face2cell.back()[0])],
-                      mesh.cell_tags[at(here.cell)]),
+                      mesh.cell_tags[at(cells[0])], mesh.cell_tags[at(here.cell)]),
           "mesh topology", "the quadrilateral face is twisted: repair these cells");
     }
     topology.cell2face_view[at(here.slot)] = static_cast<std::uint8_t>(view);
   });
-  link_face_edges(topology);
 }
 
 /// The face with these corners; -1 if there is none. Faces are numbered in the order of their keys.
@@ -271,6 +313,7 @@ Topology build_topology(const LinearMesh& mesh) {
   Topology topology;
   build_edges(mesh, topology);
   build_faces(mesh, topology);
+  link_face_edges(topology);
   link_patch_faces(mesh, topology);
   return topology;
 }

@@ -88,10 +88,9 @@ void refuse_bad_quality(double quality) {
                     "give a value from 0 to 1; 0.95 is the paper's");
 }
 
-}  // namespace
-
-CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
-                  const Progress& progress) {
+/// @param owned  emptied when it is no longer needed; may be null, else the same as data
+CurveResult run(const MeshData& data, MeshData* owned, GeometryModel& geometry,
+                const CurveOptions& options, const Progress& progress) {
   refuse_bad_orders(options.orders);
   refuse_bad_quality(options.quality);
   CurveResult result;
@@ -112,6 +111,7 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   std::vector<Index> pinched =
       find_pinched_cells(*result.linear, *result.topology, result.association, wall);
   if (options.split_pinched) pinched = unpinch(result, wall, std::move(pinched), link);
+  if (owned) *owned = {};
   const LinearMesh& mesh = *result.linear;
   const Topology& topology = *result.topology;
 
@@ -182,9 +182,9 @@ CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOpti
   return result;
 }
 
-MeshData exported(const CurveResult& result, const CurveOptions& options) {
-  ExportMap map;
-  MeshData data = export_mesh(*result.curved, options.uniform ? options.orders.max_order : 0, &map);
+/// What is known of every element of an exported mesh, as fields.
+std::vector<Field> fields_of(const CurveResult& result, const CurveOptions& options,
+                             const ExportMap& map) {
   const std::size_t n = map.cell.size();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Field order{"shape_order", std::vector<double>(n, nan)},
@@ -210,10 +210,52 @@ MeshData exported(const CurveResult& result, const CurveOptions& options) {
       cost.values[i] = result.cell_cost[at(behind)];
     }
   }
-  data.element_fields = {std::move(bound), std::move(cost), std::move(patch), std::move(deviation)};
+  std::vector<Field> fields{std::move(bound), std::move(cost), std::move(patch),
+                            std::move(deviation)};
   // The file's own order of a cell says this already, unless all were elevated to one.
-  if (options.uniform) data.element_fields.push_back(std::move(order));
+  if (options.uniform) fields.push_back(std::move(order));
+  return fields;
+}
+
+int uniform_order(const CurveOptions& options) {
+  return options.uniform ? options.orders.max_order : 0;
+}
+
+}  // namespace
+
+CurveResult curve(const MeshData& data, GeometryModel& geometry, const CurveOptions& options,
+                  const Progress& progress) {
+  return run(data, nullptr, geometry, options, progress);
+}
+
+CurveResult curve(MeshData&& data, GeometryModel& geometry, const CurveOptions& options,
+                  const Progress& progress) {
+  return run(data, &data, geometry, options, progress);
+}
+
+MeshData exported(const CurveResult& result, const CurveOptions& options) {
+  ExportMap map;
+  MeshData data = export_mesh(*result.curved, uniform_order(options), &map);
+  data.element_fields = fields_of(result, options, map);
   data.source = result.report.input.mesh;
+  return data;
+}
+
+MeshData exported(CurveResult&& result, const CurveOptions& options, bool with_fields) {
+  if (!with_fields) {
+    result.association = {};
+    result.cell_bound = {};
+    result.cell_cost = {};
+    result.face_deviation = {};
+  }
+  ExportMap map;
+  MeshData data =
+      export_mesh(std::move(*result.curved), uniform_order(options), with_fields ? &map : nullptr);
+  if (with_fields) data.element_fields = fields_of(result, options, map);
+  data.source = result.report.input.mesh;
+  Report report = std::move(result.report);
+  result = {};
+  result.report = std::move(report);
   return data;
 }
 

@@ -26,10 +26,17 @@ struct CurveResult {
 /// @throws MeshError, GeometryError, OptionError; Cancelled through progress
 [[nodiscard]] CurveResult curve(const MeshData& data, GeometryModel& geometry,
                                 const CurveOptions& options, const Progress& progress = {});
+/// The same for less memory: `data` is emptied once mesh and CAD are linked.
+[[nodiscard]] CurveResult curve(MeshData&& data, GeometryModel& geometry,
+                                const CurveOptions& options, const Progress& progress = {});
 
 /// The mesh to write (mixed, or uniform as the options say) with the element fields
 /// scaled_jacobian, cost, patch and deviation; and shape_order, the order before the elevation,
 /// when it is uniform.
 [[nodiscard]] MeshData exported(const CurveResult& result, const CurveOptions& options);
+/// The same for less memory: of `result` only the report stays.
+/// @param with_fields  false: no element fields (of the formats only .vtu takes them)
+[[nodiscard]] MeshData exported(CurveResult&& result, const CurveOptions& options,
+                                bool with_fields);
 
 }  // namespace camber

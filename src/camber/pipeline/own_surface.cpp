@@ -110,16 +110,32 @@ GivenLink given_link(const SurfaceLink& link, const LinearMesh& mesh, const Topo
   return given;
 }
 
-CurveResult curve_without_cad(const MeshData& data, const FeatureOptions& features,
-                              CurveOptions options, const Progress& progress) {
-  OwnSurface own;
-  {
-    const LinearMesh mesh = build_linear_mesh(data);
-    own = reconstruct_boundary(mesh, build_topology(mesh), features);
-  }
+namespace {
+
+/// The surface of the mesh, and the options that link to it.
+OwnSurface own_surface(const MeshData& data, const FeatureOptions& features,
+                       CurveOptions& options) {
+  const LinearMesh mesh = build_linear_mesh(data);
+  OwnSurface own = reconstruct_boundary(mesh, build_topology(mesh), features);
   options.link_by = LinkBy::own_surface;
   options.surface_link = std::make_shared<const SurfaceLink>(std::move(own.link));
+  return own;
+}
+
+}  // namespace
+
+CurveResult curve_without_cad(const MeshData& data, const FeatureOptions& features,
+                              CurveOptions options, const Progress& progress) {
+  const OwnSurface own = own_surface(data, features, options);
   CurveResult result = curve(data, *own.model, options, progress);
+  tell(own, features, result.report);
+  return result;
+}
+
+CurveResult curve_without_cad(MeshData&& data, const FeatureOptions& features, CurveOptions options,
+                              const Progress& progress) {
+  const OwnSurface own = own_surface(data, features, options);
+  CurveResult result = curve(std::move(data), *own.model, options, progress);
   tell(own, features, result.report);
   return result;
 }

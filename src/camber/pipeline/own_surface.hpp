@@ -34,5 +34,8 @@ struct OwnSurface {
 /// @throws MeshError, OptionError, GeometryError
 [[nodiscard]] CurveResult curve_without_cad(const MeshData& data, const FeatureOptions& features,
                                             CurveOptions options, const Progress& progress = {});
+/// The same for less memory: `data` is emptied on the way.
+[[nodiscard]] CurveResult curve_without_cad(MeshData&& data, const FeatureOptions& features,
+                                            CurveOptions options, const Progress& progress = {});
 
 }  // namespace camber

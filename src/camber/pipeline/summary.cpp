@@ -21,6 +21,7 @@ namespace camber {
 namespace {
 
 constexpr double k_spacing_limit = 0.01;
+constexpr std::size_t k_certified_at_once = std::size_t{1} << 16;
 
 Vec3 centre_of(const LinearMesh& mesh, Index c) {
   Vec3 centre = Vec3::Zero();
@@ -43,17 +44,20 @@ void certify_cells(CurveResult& result, Report& report) {
   const LinearMesh& mesh = *result.linear;
   const CurvedMesh& curved = *result.curved;
   const std::size_t n = mesh.cell_count();
-  const auto gather = [&](std::size_t i, Points& nodes) {
-    const Index c = static_cast<Index>(i);
-    curved.gather(c, curved.cell_order(c), nodes);
-    return ElementKind{mesh.cell_shape[i], curved.cell_order(c)};
-  };
-  const std::vector<JacobianBounds> bounds = certify_all(n, gather);
   result.cell_bound.resize(n);
   result.cell_cost = cell_costs(curved);
   double sum = 0.0;
+  // Part by part: the bounds of all cells at once are as large as the curved mesh.
+  std::vector<JacobianBounds> bounds;
   for (std::size_t i = 0; i < n; ++i) {
-    const JacobianBounds& b = bounds[i];
+    if (i % k_certified_at_once == 0) {
+      bounds = certify_all(std::min(n - i, k_certified_at_once), [&](std::size_t k, Points& nodes) {
+        const Index c = static_cast<Index>(i + k);
+        curved.gather(c, curved.cell_order(c), nodes);
+        return ElementKind{mesh.cell_shape[i + k], curved.cell_order(c)};
+      });
+    }
+    const JacobianBounds& b = bounds[i % k_certified_at_once];
     result.cell_bound[i] = b.scaled_jacobian;
     report.validity.certified += b.verdict == Verdict::valid;
     report.validity.invalid += b.verdict == Verdict::invalid;

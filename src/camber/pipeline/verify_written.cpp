@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <tuple>
 
@@ -16,8 +17,9 @@ namespace {
 /// Elements of one shape, order and entity, over all blocks: formats may split or join blocks.
 using Kind = std::tuple<int, Shape, int>;
 struct Elements {
-  std::vector<Index> nodes;
-  std::vector<GlobalId> tags;
+  std::vector<const ElementBlock*> blocks;
+  std::size_t nodes = 0;
+  bool has_tags = false;
 };
 
 std::map<Kind, Elements> by_kind(const MeshData& mesh) {
@@ -25,10 +27,44 @@ std::map<Kind, Elements> by_kind(const MeshData& mesh) {
   for (const ElementBlock& block : mesh.blocks) {
     if (block.nodes.empty()) continue;
     Elements& all = kinds[{block.entity, block.shape, block.order}];
-    all.nodes.insert(all.nodes.end(), block.nodes.begin(), block.nodes.end());
-    all.tags.insert(all.tags.end(), block.tags.begin(), block.tags.end());
+    all.blocks.push_back(&block);
+    all.nodes += block.nodes.size();
+    all.has_tags = all.has_tags || !block.tags.empty();
   }
   return kinds;
+}
+
+/// Goes through one list of all blocks of a kind, block after block.
+template <class T>
+class Walk {
+ public:
+  Walk(const std::vector<const ElementBlock*>& blocks, std::vector<T> ElementBlock::*list)
+      : blocks_(blocks), list_(list) {}
+  /// The next value, or null behind the last.
+  const T* next() {
+    for (; block_ < blocks_.size(); ++block_, place_ = 0) {
+      const std::vector<T>& values = blocks_[block_]->*list_;
+      if (place_ < values.size()) return &values[place_++];
+    }
+    return nullptr;
+  }
+
+ private:
+  const std::vector<const ElementBlock*>& blocks_;
+  std::vector<T> ElementBlock::*list_;
+  std::size_t block_ = 0, place_ = 0;
+};
+
+/// Both have the same values in the same order; `same` compares two of them.
+template <class T, class Same>
+bool walk_both(const Elements& a, const Elements& b, std::vector<T> ElementBlock::*list,
+               const Same& same) {
+  Walk<T> in_a(a.blocks, list), in_b(b.blocks, list);
+  for (;;) {
+    const T *const x = in_a.next(), *const y = in_b.next();
+    if (!x || !y) return x == y;
+    if (!same(*x, *y)) return false;
+  }
 }
 
 [[noreturn]] void differs(const MeshData& written, const std::string& what) {
@@ -77,16 +113,18 @@ void compare(const MeshData& written, const MeshData& read_back) {
   for (const auto& [kind, elements] : wanted) {
     const auto [entity, shape, order] = kind;
     const auto other = found.find(kind);
-    if (other == found.end() || other->second.nodes.size() != elements.nodes.size()) {
+    if (other == found.end() || other->second.nodes != elements.nodes) {
       differs(written, fmt::format("other number of {} elements of order {} on entity {}",
                                    name(shape), order, entity));
     }
-    if (!elements.tags.empty() && elements.tags != other->second.tags) {
+    if (elements.has_tags &&
+        !walk_both(elements, other->second, &ElementBlock::tags, std::equal_to<GlobalId>())) {
       differs(written, fmt::format("other numbers of {} elements", name(shape)));
     }
-    for (std::size_t i = 0; i < elements.nodes.size(); ++i) {
-      nodes.pair(elements.nodes[i], other->second.nodes[i]);
-    }
+    walk_both(elements, other->second, &ElementBlock::nodes, [&](Index w, Index r) {
+      nodes.pair(w, r);
+      return true;
+    });
   }
 }
 

@@ -1,3 +1,4 @@
+#include <camber/base/parallel.hpp>
 #include <camber/base/sorted_set.hpp>
 #include <camber/metric/element_quality.hpp>
 #include <camber/smooth/detail/cell_groups.hpp>
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 namespace camber {
@@ -17,6 +20,8 @@ namespace {
 constexpr int k_put_back_rounds = 60;
 /// A cell below the kept costs may pay this much for its neighbours.
 constexpr double k_price = 0.02;
+/// Patches between two looks of the listener.
+constexpr std::size_t k_patches_at_once = 64;
 /// Strain of a patch at most, summed in squares over its cells.
 constexpr double k_longest_step = 0.5;
 
@@ -115,13 +120,22 @@ bool has_free_node(const CurvedMesh& curved, Index c, const std::vector<std::uin
   return is_any;
 }
 
-/// One patch; true if it was improved.
-bool polish_patch(CurvedMesh& curved, const std::vector<Index>& core,
-                  const std::vector<std::uint8_t>& is_free, std::vector<double>& costs,
-                  const PolishOptions& options, PolishResult& result) {
-  const std::vector<Index> cells = detail::curved_neighbours(curved, core);
-  detail::CellEnergy energy(curved, cells, detail::nodes_of(curved, core, is_free));
-  if (energy.size() == 0) return false;
+/// A patch and what came of it.
+struct PatchWork {
+  std::vector<Index> core, cells;  // cells whose nodes may move; all that depend on them
+  std::size_t turn = 0;            // patches of one turn have no cell in common
+  std::vector<double> costs;       // of `cells` afterwards; empty if it was put back
+  std::size_t evaluations = 0;     // of one cell
+  double energy_at_start = 0.0, energy_at_end = 0.0;
+};
+
+/// Optimises one patch. Writes nodes of its core and reads those of its cells, no others: patches
+/// without a common cell may run at the same time.
+void polish_patch(CurvedMesh& curved, const std::vector<std::uint8_t>& is_free,
+                  const std::vector<double>& costs, const PolishOptions& options, PatchWork& work) {
+  const std::vector<Index>& cells = work.cells;
+  detail::CellEnergy energy(curved, cells, detail::nodes_of(curved, work.core, is_free));
+  if (energy.size() == 0) return;
   const detail::GroupSolver hessian = detail::GroupSolver::across_thin_cells(energy);
   const VecX start = energy.positions(curved);
   VecX x = start;
@@ -132,25 +146,66 @@ bool polish_patch(CurvedMesh& curved, const std::vector<Index>& core,
   lbfgs.longest_step = k_longest_step;
   minimise_lbfgs(
       [&](const VecX& y, VecX& gradient) {
-        ++evaluations;
-        return energy.evaluate(detail::EnergyKind::quality, y, 0.0, gradient);
+        const double value = energy.evaluate(detail::EnergyKind::quality, y, 0.0, gradient);
+        if (++evaluations == 1) work.energy_at_start = work.energy_at_end = value;
+        work.energy_at_end = std::min(work.energy_at_end, value);
+        return value;
       },
       x, hessian, lbfgs, [&](const VecX&) { return evaluations >= options.max_evaluations; });
-  result.evaluations += static_cast<std::size_t>(evaluations) * cells.size();
-  VecX unused;
-  result.energy_at_start += energy.evaluate(detail::EnergyKind::quality, start, 0.0, unused);
-  result.energy_at_end += energy.evaluate(detail::EnergyKind::quality, x, 0.0, unused);
+  work.evaluations = static_cast<std::size_t>(evaluations) * cells.size();
 
   std::vector<double> before;
   for (Index c : cells) before.push_back(costs[at(c)]);
-  const std::vector<double> after =
+  std::vector<double> after =
       store_what_is_better(curved, energy, start, x, before, options.kept_cost);
   if (after.empty() || !(mean(after) > mean(before))) {
     energy.store(start, curved);
-    return false;
+    return;
   }
-  for (std::size_t i = 0; i < cells.size(); ++i) costs[at(cells[i])] = after[i];
-  return true;
+  work.costs = std::move(after);
+}
+
+/// Gives every patch the first turn after those of all patches before it that share a cell with it:
+/// the outcome is that of one after the other. @return number of turns
+std::size_t take_turns(std::span<PatchWork> patches) {
+  std::unordered_map<Index, std::size_t> next;  // by cell
+  std::size_t turns = 0;
+  for (PatchWork& patch : patches) {
+    for (Index c : patch.cells) {
+      const auto held = next.find(c);
+      if (held != next.end()) patch.turn = std::max(patch.turn, held->second);
+    }
+    for (Index c : patch.cells) next[c] = patch.turn + 1;
+    turns = std::max(turns, patch.turn + 1);
+  }
+  return turns;
+}
+
+void store_costs(const PatchWork& patch, std::vector<double>& costs) {
+  for (std::size_t i = 0; i < patch.costs.size(); ++i) costs[at(patch.cells[i])] = patch.costs[i];
+}
+
+/// Optimises patches, those of one turn at the same time; `costs` is what was before all of them.
+void polish_patches(CurvedMesh& curved, const std::vector<std::uint8_t>& is_free,
+                    std::vector<double> costs, const PolishOptions& options,
+                    std::span<PatchWork> patches) {
+  const std::size_t turns = take_turns(patches);
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    std::vector<PatchWork*> now;
+    for (PatchWork& patch : patches) {
+      if (patch.turn == turn) now.push_back(&patch);
+    }
+    // The longest first, so that no thread is left alone with one at the end.
+    std::stable_sort(now.begin(), now.end(), [](const PatchWork* a, const PatchWork* b) {
+      return a->cells.size() > b->cells.size();
+    });
+    parallel_for(now.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        polish_patch(curved, is_free, costs, options, *now[i]);
+      }
+    });
+    for (const PatchWork* patch : now) store_costs(*patch, costs);
+  }
 }
 
 }  // namespace
@@ -187,11 +242,26 @@ PolishResult polish(CurvedMesh& curved, const std::vector<std::uint8_t>& is_free
   for (int ring = 1; ring < options.rings; ++ring) {
     grown = with_neighbours(curved.topology(), grown);
   }
-  for (const std::vector<Index>& core : detail::connected_groups(curved.topology(), grown)) {
+  std::vector<PatchWork> patches;
+  for (std::vector<Index>& core : detail::connected_groups(curved.topology(), grown)) {
     if (core.size() > options.max_cells) continue;
-    report(core.size());
-    ++result.patches;
-    result.improved += polish_patch(curved, core, is_free, costs, options, result);
+    std::vector<Index> cells = detail::curved_neighbours(curved, core);
+    patches.push_back({std::move(core), std::move(cells), 0, {}, 0});
+  }
+  for (std::size_t first = 0; first < patches.size(); first += k_patches_at_once) {
+    const std::span<PatchWork> some =
+        std::span(patches).subspan(first, std::min(k_patches_at_once, patches.size() - first));
+    polish_patches(curved, is_free, costs, options, some);
+    // Told as if they had run one after the other.
+    for (const PatchWork& patch : some) {
+      report(patch.core.size());
+      ++result.patches;
+      result.improved += !patch.costs.empty();
+      result.evaluations += patch.evaluations;
+      result.energy_at_start += patch.energy_at_start;
+      result.energy_at_end += patch.energy_at_end;
+      store_costs(patch, costs);
+    }
   }
   if (result.patches > 0) report(0);
   return result;

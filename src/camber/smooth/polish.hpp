@@ -22,7 +22,7 @@ struct PolishResult {
   std::size_t patches = 0, improved = 0;
   std::size_t seeds = 0;        // cells below the target at the start
   std::size_t evaluations = 0;  // of one cell, spent
-  // Sums over the patches of the energy where it started and where the optimiser left it (before
+  // Sums over the patches of the energy where it started and the least that was found (before
   // nodes are put back).
   double energy_at_start = 0.0, energy_at_end = 0.0;
   std::vector<SmoothRow> rows;  // one a patch, and one at the end
