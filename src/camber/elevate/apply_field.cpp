@@ -32,26 +32,20 @@ void set_face(const LayerField& field, CurvedMesh& curved, Index f) {
   std::array<Vec3, 49> u;
   const int q = curved.face_order(f);
   field.face(f, q, std::span(u.data(), nodes.size()));
-  const Topology& topology = curved.topology();
-  const Shape shape = topology.face_shape[at(f)];
-  const Points straight = straight_face_nodes(curved.linear(), topology, f, q);
-  const std::span<const int> inner = interior_nodes(shape, q);
+  curved.straight_inside_face(f, nodes);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    nodes[k] = field.constrained_face_point(f, straight[static_cast<std::size_t>(inner[k])] + u[k]);
+    nodes[k] = field.constrained_face_point(f, nodes[k] + u[k]);
   }
 }
 
-void set_cell(const LayerField& field, CurvedMesh& curved, Index c, Points& straight, Points& u) {
+void set_cell(const LayerField& field, CurvedMesh& curved, Index c, Points& u) {
   const std::span<Vec3> nodes = curved.cell_nodes(c);
   if (nodes.empty()) return;
   const int q = curved.cell_order(c);
   u.resize(nodes.size());
   field.cell(c, q, u);
-  curved.gather_straight(c, q, straight);
-  const std::vector<int>& inner = lattice_map(curved.linear().cell_shape[at(c)], q).interior;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    nodes[k] = straight[static_cast<std::size_t>(inner[k])] + u[k];
-  }
+  curved.straight_inside_cell(c, nodes);
+  for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] += u[k];
 }
 
 void set_all(const LayerField& field, CurvedMesh& curved, const std::vector<Index>& edges,
@@ -63,8 +57,8 @@ void set_all(const LayerField& field, CurvedMesh& curved, const std::vector<Inde
     for (std::size_t i = begin; i < end; ++i) set_face(field, curved, faces[i]);
   });
   parallel_for(cells.size(), k_grain, [&](std::size_t begin, std::size_t end) {
-    Points straight, u;
-    for (std::size_t i = begin; i < end; ++i) set_cell(field, curved, cells[i], straight, u);
+    Points u;
+    for (std::size_t i = begin; i < end; ++i) set_cell(field, curved, cells[i], u);
   });
 }
 

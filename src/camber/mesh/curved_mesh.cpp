@@ -29,6 +29,19 @@ std::size_t own_count(Shape shape, int q) {
   return q < 2 ? 0 : lattice_map(shape, q).interior.size();
 }
 
+/// The nodes of straight_nodes() strictly inside, the same bits.
+void straight_inside(Shape shape, int q, std::span<const Vec3> corners, std::span<Vec3> nodes) {
+  const MatX& E = elevation_matrix(shape, 1, q);
+  const std::vector<int>&corner = lattice_map(shape, 1).corner,
+        &inner = lattice_map(shape, q).interior;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes[i] = Vec3::Zero();
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      nodes[i] += E(inner[i], corner[c]) * corners[c];
+    }
+  }
+}
+
 [[noreturn]] void refuse_size() {
   throw MeshError("the curved mesh has more than 2147483647 nodes above order 1", "",
                   "choose a lower order or a smaller mesh");
@@ -54,10 +67,11 @@ OrderField minimum_rule(const Topology& topology, std::vector<std::uint8_t> cell
   return orders;
 }
 
-CurvedMesh::CurvedMesh(const LinearMesh& mesh, const Topology& topology, OrderField orders)
+CurvedMesh::CurvedMesh(const LinearMesh& mesh, const Topology& topology, OrderField orders,
+                       NodeStart start)
     : mesh_(&mesh), topology_(&topology), orders_(std::move(orders)) {
   allocate();
-  straighten();
+  if (start == NodeStart::straight) straighten();
 }
 
 void CurvedMesh::allocate() {
@@ -97,22 +111,13 @@ void CurvedMesh::straighten() {
     for (std::size_t f = begin; f < end; ++f) {
       const std::span<Vec3> nodes = face_nodes(static_cast<Index>(f));
       if (nodes.empty()) continue;
-      const Shape shape = t.face_shape[f];
-      const Points all = straight_face_nodes(*mesh_, t, static_cast<Index>(f), orders_.face[f]);
-      const std::vector<int>& inner = lattice_map(shape, orders_.face[f]).interior;
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        nodes[i] = all[static_cast<std::size_t>(inner[i])];
+      straight_inside_face(static_cast<Index>(f), nodes);
     }
   });
   parallel_for(mesh_->cell_count(), k_grain, [&](std::size_t begin, std::size_t end) {
-    Points all;
     for (std::size_t c = begin; c < end; ++c) {
       const std::span<Vec3> nodes = cell_nodes(static_cast<Index>(c));
-      if (nodes.empty()) continue;
-      gather_straight(static_cast<Index>(c), orders_.cell[c], all);
-      const std::vector<int>& inner = lattice_map(mesh_->cell_shape[c], orders_.cell[c]).interior;
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        nodes[i] = all[static_cast<std::size_t>(inner[i])];
+      if (!nodes.empty()) straight_inside_cell(static_cast<Index>(c), nodes);
     }
   });
 }
@@ -202,17 +207,17 @@ void CurvedMesh::gather(Index c, int q, Points& nodes) const {
     for (std::size_t i = 0; i < cell_faces.size(); ++i) {
       const Index f = cell_faces[i];
       if (map.face_interior[i].empty()) continue;
-      if (face_order(f) == p) {
-        // Only the inside is read below: the edges of the face are those of the cell.
-        const std::span<const Vec3> own = face_nodes(f);
-        const std::vector<int>& interior = lattice_map(t.face_shape[at(f)], p).interior;
-        for (std::size_t k = 0; k < own.size(); ++k) {
-          surface[static_cast<std::size_t>(interior[k])] = own[k];
-        }
-      } else {
-        face_lattice(f, p, surface);
-      }
       const int view = t.cell2face_view[at(t.cell2face_offset[at(c)]) + i];
+      if (face_order(f) == p) {
+        const std::span<const Vec3> own = face_nodes(f);
+        const std::span<const int> place = face_view_interior(t.face_shape[at(f)], view, p);
+        const std::vector<int>& slots = map.face_interior[i];
+        for (std::size_t k = 0; k < own.size(); ++k) {
+          nodes[static_cast<std::size_t>(slots[k])] = own[static_cast<std::size_t>(place[k])];
+        }
+        continue;
+      }
+      face_lattice(f, p, surface);
       const std::span<const int> frame_node = face_view_nodes(t.face_shape[at(f)], view, p);
       for (int inside : interior_nodes(t.face_shape[at(f)], p)) {
         nodes[static_cast<std::size_t>(map.face[i][static_cast<std::size_t>(inside)])] =
@@ -229,6 +234,21 @@ void CurvedMesh::gather(Index c, int q, Points& nodes) const {
     apply(elevation_matrix(shape, p, q), nodes, elevated);
     nodes = std::move(elevated);
   }
+}
+
+void CurvedMesh::straight_inside_face(Index f, std::span<Vec3> nodes) const {
+  std::array<Vec3, 4> corner;
+  const std::size_t n = static_cast<std::size_t>(topology_->corners_of_face(f));
+  for (std::size_t i = 0; i < n; ++i) corner[i] = vertex(topology_->face2vertex[at(f)][i]);
+  straight_inside(topology_->face_shape[at(f)], face_order(f), std::span(corner.data(), n), nodes);
+}
+
+void CurvedMesh::straight_inside_cell(Index c, std::span<Vec3> nodes) const {
+  std::array<Vec3, 8> corner;
+  const std::span<const Index> v = mesh_->cell(c);
+  for (std::size_t i = 0; i < v.size(); ++i) corner[i] = vertex(v[i]);
+  straight_inside(mesh_->cell_shape[at(c)], cell_order(c), std::span(corner.data(), v.size()),
+                  nodes);
 }
 
 void CurvedMesh::gather_straight(Index c, int q, Points& nodes) const {

@@ -20,14 +20,17 @@ struct OrderField {
 [[nodiscard]] OrderField minimum_rule(const Topology& topology,
                                       std::vector<std::uint8_t> cell_orders);
 
+enum class NodeStart { straight, zero };
+
 /// Nodes of a mixed-order mesh. Holds references to the linear mesh and its topology, which must
 /// outlive it. Only nodes above order 1 are stored: p-1 an edge, the interior lattice nodes of
 /// faces (in the face's frame) and cells. Reading from several threads is safe; writing to
 /// different entities too.
 class CurvedMesh {
  public:
-  /// All entities straight, of the given orders.
-  CurvedMesh(const LinearMesh& mesh, const Topology& topology, OrderField orders);
+  /// All entities straight, of the given orders; or with nodes at zero, for who sets all of them.
+  CurvedMesh(const LinearMesh& mesh, const Topology& topology, OrderField orders,
+             NodeStart start = NodeStart::straight);
 
   [[nodiscard]] const LinearMesh& linear() const { return *mesh_; }
   [[nodiscard]] const Topology& topology() const { return *topology_; }
@@ -52,7 +55,10 @@ class CurvedMesh {
   /// The element's Lagrange nodes of order q >= cell_order(c), canonical order: the same
   /// polynomial.
   void gather(Index c, int q, Points& nodes) const;
-  /// The same for the straight copy.
+  /// Straight places of the entity's own nodes.
+  void straight_inside_face(Index f, std::span<Vec3> nodes) const;
+  void straight_inside_cell(Index c, std::span<Vec3> nodes) const;
+  /// gather() for the straight copy.
   void gather_straight(Index c, int q, Points& nodes) const;
 
   /// All nodes above order 1, edges first, then faces, then cells, and where an entity's own begin.

@@ -53,12 +53,10 @@ class Exporter {
   void put_face(Index f, int p, int view, const std::vector<int>& slots, Index* nodes) const {
     const Shape shape = topology_.face_shape[at(f)];
     const std::span<const int> inner = interior_nodes(shape, p);
-    const std::span<const int> frame_node = face_view_nodes(shape, view, p);
+    const std::span<const int> place = face_view_interior(shape, view, p);
     const Index first = points_.first_of_face(f, p);
-    for (int n : inner) {
-      const int stored = frame_node[static_cast<std::size_t>(n)];
-      const auto place = std::lower_bound(inner.begin(), inner.end(), stored) - inner.begin();
-      nodes[slots[static_cast<std::size_t>(n)]] = first + static_cast<Index>(place);
+    for (std::size_t k = 0; k < inner.size(); ++k) {
+      nodes[slots[static_cast<std::size_t>(inner[k])]] = first + place[k];
     }
   }
 

@@ -354,10 +354,34 @@ Points straight_face_nodes(const LinearMesh& mesh, const Topology& topology, Ind
   return straight_nodes(topology.face_shape[at(f)], q, std::span(corner.data(), n));
 }
 
-std::span<const int> face_view_nodes(Shape shape, int view, int p) {
-  using Table = std::vector<std::vector<std::vector<int>>>;  // [p][view]
+using ViewTable = std::vector<std::vector<std::vector<int>>>;  // [p][view]
+
+std::span<const int> face_view_interior(Shape shape, int view, int p) {
   static const auto make = [](Shape s) {
-    Table table(static_cast<std::size_t>(k_max_tested_order) + 1);
+    ViewTable table(static_cast<std::size_t>(k_max_tested_order) + 1);
+    for (int order = 1; order <= k_max_tested_order; ++order) {
+      const std::span<const int> inner = interior_nodes(s, order);
+      for (int w = 0; static_cast<std::size_t>(w) < face_views(s).size(); ++w) {
+        const std::span<const int> frame_node = face_view_nodes(s, w, order);
+        std::vector<int>& places = table[static_cast<std::size_t>(order)].emplace_back();
+        for (int n : inner) {
+          const int stored = frame_node[static_cast<std::size_t>(n)];
+          places.push_back(static_cast<int>(std::lower_bound(inner.begin(), inner.end(), stored) -
+                                            inner.begin()));
+        }
+      }
+    }
+    return table;
+  };
+  static const ViewTable triangle = make(Shape::triangle);
+  static const ViewTable quadrilateral = make(Shape::quadrilateral);
+  const ViewTable& table = shape == Shape::triangle ? triangle : quadrilateral;
+  return table[static_cast<std::size_t>(p)][static_cast<std::size_t>(view)];
+}
+
+std::span<const int> face_view_nodes(Shape shape, int view, int p) {
+  static const auto make = [](Shape s) {
+    ViewTable table(static_cast<std::size_t>(k_max_tested_order) + 1);
     for (int order = 1; order <= k_max_tested_order; ++order) {
       for (const std::array<int, 4>& v : face_views(s)) {
         const std::size_t n = s == Shape::triangle ? 3 : 4;
@@ -367,9 +391,9 @@ std::span<const int> face_view_nodes(Shape shape, int view, int p) {
     }
     return table;
   };
-  static const Table triangle = make(Shape::triangle);
-  static const Table quadrilateral = make(Shape::quadrilateral);
-  const Table& table = shape == Shape::triangle ? triangle : quadrilateral;
+  static const ViewTable triangle = make(Shape::triangle);
+  static const ViewTable quadrilateral = make(Shape::quadrilateral);
+  const ViewTable& table = shape == Shape::triangle ? triangle : quadrilateral;
   return table[static_cast<std::size_t>(p)][static_cast<std::size_t>(view)];
 }
 

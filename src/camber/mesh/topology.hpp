@@ -74,5 +74,8 @@ struct Topology {
                                          int q);
 /// The node permutations that belong to them: result[n] = frame node at the viewer's node n.
 [[nodiscard]] std::span<const int> face_view_nodes(Shape shape, int view, int p);
+/// The same among the nodes inside: result[k] = place, among the face's own nodes, of the one at
+/// the viewer's k-th interior node.
+[[nodiscard]] std::span<const int> face_view_interior(Shape shape, int view, int p);
 
 }  // namespace camber

@@ -144,7 +144,7 @@ CurveResult run(const MeshData& data, MeshData* owned, GeometryModel& geometry,
 
   watch.next("propagate");
   progress("propagate", 0.6);
-  result.curved = std::make_unique<CurvedMesh>(mesh, topology, std::move(orders));
+  result.curved = std::make_unique<CurvedMesh>(mesh, topology, std::move(orders), NodeStart::zero);
   VolumeStart start(*result.curved, field, layers, options.propagation);
   start.propagate();
 

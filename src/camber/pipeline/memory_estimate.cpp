@@ -12,10 +12,10 @@ namespace {
 
 /// The program, its libraries and a small CAD file.
 constexpr double k_program = 47e6;
-/// Linear mesh as read, topology, association and what is known of a cell.
-constexpr double k_per_cell = 750.0;
-/// A node in the curved mesh, in the mesh to be written and in the one read back.
-constexpr double k_per_node = 200.0;
+/// Linear mesh, topology, association and what is known of a cell (docs/performance.md).
+constexpr double k_per_cell = 500.0;
+/// A node in the mesh to be written, in the file and in the mesh read back.
+constexpr double k_per_node = 185.0;
 constexpr double k_gigabyte = 1e9;
 
 /// Share of a hexahedron's nodes.

@@ -28,7 +28,7 @@ void OutputFile::append(std::string_view text) {
 void OutputFile::flush() {
   const char* from = buffer_.data();
   std::size_t left = buffer_.size();
-  hash_ = fnv1a({from, left}, hash_);
+  if (has_hash_) hash_ = fnv1a({from, left}, hash_);
   size_ += left;
   while (left > 0) {
     const ssize_t n = ::write(fd_.value(), from, left);

@@ -35,6 +35,8 @@ class OutputFile {
     if (buffer_.size() >= k_buffer) flush();
   }
 
+  /// hash() is not asked for: saves its time.
+  void leave_out_hash() { has_hash_ = false; }
   /// Writes what is left and closes. @throws FileError
   void finish();
   /// FNV-1a hash and number of all bytes given so far; call after finish().
@@ -50,6 +52,7 @@ class OutputFile {
   fmt::memory_buffer buffer_;
   std::uint64_t hash_ = k_fnv_start;
   std::uint64_t size_ = 0;
+  bool has_hash_ = true;
 };
 
 /// The error for a failed write: what went wrong and what to do about it.

@@ -224,6 +224,7 @@ void write_gmsh(const MeshData& mesh, const std::string& path, const GmshWriteOp
                 const std::string& display) {
   const gmsh::WritePlan plan = gmsh::plan_write(mesh, display);
   OutputFile out(path, display);
+  out.leave_out_hash();  // the file is read back
   const bool is_v4 = options.version > 4.0;
   gmsh::write_format(out, is_v4 ? "4.1" : "2.2", options.binary);
   gmsh::write_physical_names(out, mesh);

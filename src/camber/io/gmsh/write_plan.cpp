@@ -41,12 +41,18 @@ std::vector<EntityRecord> list_entities(const MeshData& mesh,
   for (const EntityRecord& e : mesh.entities) records.try_emplace(e.key, e);
   // Boxes that are not stated are taken from the nodes.
   std::map<EntityKey, Box> boxes;
+  // Neighbours in a list mostly have one entity: it is looked up once a run.
+  const EntityKey* last = nullptr;
+  Box* grown = nullptr;  // null where the box is stated
   const auto grow = [&](const EntityKey& key, std::span<const Index> points) {
-    EntityRecord& record = records[key];
-    record.key = key;
-    if (!record.box.is_empty()) return;
-    Box& box = boxes[key];
-    for (const Index i : points) box.add(mesh.points[at(i)]);
+    if (!last || key != *last) {
+      EntityRecord& record = records[key];
+      record.key = key;
+      last = &record.key;
+      grown = record.box.is_empty() ? &boxes[key] : nullptr;
+    }
+    if (!grown) return;
+    for (const Index i : points) grown->add(mesh.points[at(i)]);
   };
   for (const ElementBlock& b : mesh.blocks) {
     if (!b.nodes.empty()) grow({dimension(b.shape), b.entity}, b.nodes);
