@@ -30,6 +30,31 @@ Index edge_above(const Case& c, Index e, Index step) {
   return c.topology.find_edge(v[0] + step, v[1] + step);
 }
 
+/// 96 quads on a sphere whose edges move by 3 per cent of the radius, two layers, pyramids on top.
+std::unique_ptr<Case> capped_sphere(double cap_height) {
+  LayerOptions options;
+  options.filling = LayerFilling::capped;
+  options.cap_height = cap_height;
+  return make_case(layers_on(cubed_sphere(4), {0.0, 0.01, 0.03}, outwards, options),
+                   make_sphere(Vec3::Zero(), 1.0));
+}
+
+TEST(Decay, IsShorterUnderFlatCaps) {
+  const auto high = capped_sphere(0.5), flat = capped_sphere(0.1);
+  const LayerField loose = high->field(), tight = flat->field();
+  const double edge = mean_edge(cubed_sphere(4));
+  int shorter = 0;
+  for (Index v = 0; v < 98; ++v) {
+    EXPECT_LE(tight.decay_length(v), loose.decay_length(v));
+    shorter += tight.decay_length(v) < loose.decay_length(v);
+    // As short as layers bear, or what is left at their top is little for the cap.
+    const double d = flat->placement->largest_displacement();
+    const double left = d * decay(0.03 / tight.decay_length(v));
+    EXPECT_TRUE(tight.decay_length(v) <= 2.5 * d * (1.0 + 1e-12) || left <= 0.3 * 0.12 * edge);
+  }
+  EXPECT_EQ(shorter, 98);
+}
+
 TEST(Decay, IsOneAndFlatAtTheWallAndEndsFlat) {
   EXPECT_DOUBLE_EQ(decay(0.0), 1.0);
   EXPECT_DOUBLE_EQ(decay(0.5), 0.5);

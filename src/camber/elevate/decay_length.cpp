@@ -11,6 +11,11 @@ namespace {
 /// The decay must end before the middle between two facing walls.
 constexpr double k_gap_share = 0.9;
 
+/// What a cell on top of a column bears, in its height; the shortest decay for its sake: layers
+/// keep 1 - 1.5 / k_least_reach of their thickness.
+constexpr double k_cap_share = 0.3, k_least_reach = 2.5;
+constexpr int k_halvings = 30;
+
 /// Calls visit(vertex, slot) for every corner of every wall face.
 template <class Visit>
 void for_each_corner(const Topology& topology, const Wall& wall, const Visit& visit) {
@@ -65,6 +70,58 @@ std::vector<double> lengths_over_cells(const LinearMesh& mesh, const Topology& t
   return length;
 }
 
+/// Largest displacement of the wall faces around each wall vertex.
+std::vector<double> largest_displacements(const LinearMesh& mesh, const Topology& topology,
+                                          const Wall& wall, const Placement& placement) {
+  const int q = placement.max_order();
+  std::vector<double> displacement(wall.face_count(), 0.0), largest(mesh.vertices.size(), 0.0);
+  for (std::size_t s = 0; s < wall.face_count() && q >= 2; ++s) {
+    for (const Vec3& d : placement.face_displacement(static_cast<Index>(s), q)) {
+      displacement[s] = std::max(displacement[s], d.norm());
+    }
+  }
+  for_each_corner(topology, wall, [&](Index v, std::size_t s) {
+    largest[at(v)] = std::max(largest[at(v)], displacement[s]);
+  });
+  return largest;
+}
+
+/// The lowest cell that stands on the top of each wall vertex's column: its height, and that of
+/// the column.
+struct Cap {
+  double height = std::numeric_limits<double>::infinity(), column = 0.0;
+};
+
+std::vector<Cap> caps_of_columns(const LinearMesh& mesh, const Topology& topology,
+                                 const Columns& columns) {
+  std::vector<Cap> caps(mesh.vertices.size());
+  for (Index c = 0; at(c) < mesh.cell_count(); ++c) {
+    if (columns.cell_face_slot[at(c)] != k_none) continue;
+    for (Index f : topology.faces_of_cell(c)) {
+      const std::span<const Index> foot(topology.face2vertex[at(f)].data(),
+                                        sz(topology.corners_of_face(f)));
+      const bool is_top = std::all_of(foot.begin(), foot.end(), [&](Index v) {
+        return columns.base[at(v)] != k_none && columns.height[at(v)] > 0.0;
+      });
+      if (!is_top) continue;
+      const auto x = [&](std::size_t i) -> const Vec3& { return mesh.vertices[at(foot[i])]; };
+      const Vec3 n =
+          (foot.size() == 3 ? (x(1) - x(0)).cross(x(2) - x(0)) : (x(2) - x(0)).cross(x(3) - x(1)))
+              .normalized();
+      double height = std::numeric_limits<double>::infinity();
+      for (Index v : mesh.cell(c)) {
+        if (columns.base[at(v)] != k_none) continue;
+        height = std::min(height, std::abs((mesh.vertices[at(v)] - x(0)).dot(n)));
+      }
+      for (Index v : foot) {
+        Cap& cap = caps[at(columns.base[at(v)])];
+        if (height < cap.height) cap = {height, columns.height[at(v)]};
+      }
+    }
+  }
+  return caps;
+}
+
 }  // namespace
 
 double decay(double s) {
@@ -77,21 +134,30 @@ std::vector<double> decay_lengths(const LinearMesh& mesh, const Topology& topolo
                                   const Wall& wall, const Placement& placement,
                                   const LayerFieldOptions& options) {
   if (options.decay == Decay::cell) return lengths_over_cells(mesh, topology, wall);
-  const int q = placement.max_order();
-  std::vector<double> displacement(wall.face_count(), 0.0), largest(mesh.vertices.size(), 0.0);
-  for (std::size_t s = 0; s < wall.face_count() && q >= 2; ++s) {
-    for (const Vec3& d : placement.face_displacement(static_cast<Index>(s), q)) {
-      displacement[s] = std::max(displacement[s], d.norm());
-    }
-  }
-  for_each_corner(topology, wall, [&](Index v, std::size_t s) {
-    largest[at(v)] = std::max(largest[at(v)], displacement[s]);
-  });
+  const std::vector<double> largest = largest_displacements(mesh, topology, wall, placement);
   std::vector<double> length = mean_wall_edges(mesh, topology, wall);
   for (std::size_t v = 0; v < length.size(); ++v) {
     length[v] = std::max(options.reach * length[v], options.reach_per_sagitta * largest[v]);
   }
   return length;
+}
+
+void limit_lengths_under_caps(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
+                              const Placement& placement, const Columns& columns,
+                              std::vector<double>& length) {
+  const std::vector<Cap> caps = caps_of_columns(mesh, topology, columns);
+  const std::vector<double> largest = largest_displacements(mesh, topology, wall, placement);
+  for (std::size_t v = 0; v < length.size(); ++v) {
+    const double d = largest[v], allowed = k_cap_share * caps[v].height;
+    const auto is_calm = [&](double l) { return d * decay(caps[v].column / l) <= allowed; };
+    double low = k_least_reach * d, high = length[v];
+    if (low >= high || is_calm(high)) continue;
+    for (int i = 0; i < k_halvings && is_calm(low); ++i) {
+      const double middle = 0.5 * (low + high);
+      (is_calm(middle) ? low : high) = middle;
+    }
+    length[v] = low;
+  }
 }
 
 void limit_lengths_in_gaps(const LinearMesh& mesh, const Wall& wall, const FaceTree& wall_tree,

@@ -1,5 +1,6 @@
 #pragma once
 // How far the wall's displacement reaches into the volume.
+#include <camber/elevate/columns.hpp>
 #include <camber/elevate/face_tree.hpp>
 #include <camber/elevate/placement.hpp>
 
@@ -29,6 +30,13 @@ struct LayerFieldOptions {
 [[nodiscard]] std::vector<double> decay_lengths(const LinearMesh& mesh, const Topology& topology,
                                                 const Wall& wall, const Placement& placement,
                                                 const LayerFieldOptions& options);
+
+/// Shortens lengths under flat cells on top of the layers, whose apex, a vertex, stays: there the
+/// displacement left, |d| phi(t / L) at the top of a column of height t, may be k_cap_share of the
+/// cell's height, if L = k_least_reach |d| gets that far down.
+void limit_lengths_under_caps(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
+                              const Placement& placement, const Columns& columns,
+                              std::vector<double>& length);
 
 /// Shortens lengths so that the decay ends before the middle between two facing walls. The middle:
 /// a ball that touches the wall at the vertex from inside the fluid is shrunk until it is empty.

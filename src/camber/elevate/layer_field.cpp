@@ -50,6 +50,9 @@ LayerField::LayerField(const LinearMesh& mesh, const Topology& topology,
   const std::vector<int> sides = wall_sides(mesh_, topology_, wall_);
   for (int side : sides) label_count_ = std::max(label_count_, side + 1);
   wall_tree_ = FaceTree(mesh_, topology_, wall_.faces, sides);
+  if (decay_ == Decay::layer) {
+    limit_lengths_under_caps(mesh, topology, wall, placement, columns, length_);
+  }
   limit_lengths_in_gaps(mesh_, wall_, wall_tree_, length_);
   for (double l : length_) longest_ = std::max(longest_, l);
   for (Index f = 0; at(f) < topology_.face_count(); ++f) {

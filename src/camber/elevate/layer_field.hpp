@@ -14,7 +14,8 @@
 namespace camber {
 
 /// u(x) = d(b) phi(z / L): b is the foot of x on the straight wall, z its distance, d the wall's
-/// displacement polynomial there, L = max(c_L h, 5 |d|), phi(s) = (1-s)^2 (1+2s). Near the wall the
+/// displacement polynomial there, L = max(c_L h, 5 |d|), phi(s) = (1-s)^2 (1+2s). Under flat
+/// cells on top of the layers L is shorter (decay_length.hpp). Near the wall the
 /// map is a shear, so the height of the first cell never enters its validity. The foot is that of
 /// the column where there is one, else the closest point. Where two walls meet in a sharp concave
 /// edge their contributions are blended with weights phi_i / z_i^2, so that u = d on each of them.

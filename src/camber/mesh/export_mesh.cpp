@@ -14,7 +14,7 @@
 namespace camber {
 namespace {
 
-constexpr std::size_t k_grain = 2048;
+constexpr std::size_t k_export_grain = 2048;
 
 class Exporter {
  public:
@@ -79,7 +79,7 @@ class Exporter {
       block.nodes.resize(cells.size() * stride);
       block.tags.resize(cells.size());
       const LatticeMap& lattice = lattice_map(shape, p);
-      parallel_for(cells.size(), k_grain, [&](std::size_t begin, std::size_t end) {
+      parallel_for(cells.size(), k_export_grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           cell_nodes(cells[i], p, lattice, block.nodes.data() + i * stride);
           block.tags[i] = mesh_.cell_tags[at(cells[i])];
