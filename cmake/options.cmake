@@ -26,14 +26,9 @@ if(CAMBER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # Half of a first build is the same headers again: for one build from nothing the sources of a module
-# go to the compiler a dozen at a time and the tests start from a precompiled header. Daily work has
-# ccache and small steps; there both are in the way.
-if(camber_top_level AND NOT CAMBER_CCACHE)
-  set(camber_one_build ON)
-else()
-  set(camber_one_build OFF)
-endif()
-option(CAMBER_ONE_BUILD "Compile as fast as one build from nothing can be" ${camber_one_build})
+# go to the compiler a dozen at a time and the tests start from a precompiled header. ./demo and
+# ./test ask for it; daily work has ccache and small steps, there both are in the way.
+option(CAMBER_ONE_BUILD "Compile as fast as one build from nothing can be" OFF)
 if(CAMBER_ONE_BUILD AND NOT DEFINED CMAKE_UNITY_BUILD)
   set(CMAKE_UNITY_BUILD ON)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)

@@ -27,13 +27,15 @@ need_packages() {
 
 # configure_and_build PRESET [TARGET...]: build/PRESET, with as many jobs as cores and memory allow.
 configure_and_build() {
-  local preset=$1 jobs gigabytes
+  local preset=$1 jobs gigabytes new=()
   shift
   jobs=$(nproc)
   gigabytes=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
   [ "$gigabytes" -lt $((2 * jobs)) ] && jobs=$((gigabytes / 2 > 0 ? gigabytes / 2 : 1))
   say "build: $preset, $jobs jobs"
-  cmake --preset "$preset" >"build/$preset.configure.log" 2>&1 ||
+  # A folder that is already configured keeps what it was configured for.
+  [ -f "build/$preset/CMakeCache.txt" ] || new=(-DCAMBER_ONE_BUILD=ON)
+  cmake --preset "$preset" ${new[@]+"${new[@]}"} >"build/$preset.configure.log" 2>&1 ||
     { cat "build/$preset.configure.log"; return 1; }
   cmake --build --preset "$preset" --parallel "$jobs" ${@:+--target "$@"}
 }
