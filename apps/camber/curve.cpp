@@ -343,12 +343,7 @@ Verb add_curve(CLI::App& app) {
       ->expected(1)
       ->take_all()
       ->type_name("NAME=OTHER[:dx,dy,dz|:x,y,z,ax,ay,az,degrees]");
-  verb->add_option("--feature-angle", flags->feature_angle,
-                   "-g auto: edges between faces turned by more stay sharp, chains of them have a "
-                   "corner where they turn by more [degrees]")
-      ->check(CLI::Range(1.0, 179.0))
-      ->type_name("ANGLE")
-      ->capture_default_str();
+  add_feature_angle_flag(*verb, "-g auto, .stl or .msh", flags->feature_angle);
   verb->add_flag("--fit", flags->options.fit,
                  "slide wall nodes along the CAD until the faces follow it as closely as their "
                  "order can; default: evenly spread nodes");

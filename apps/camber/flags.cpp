@@ -95,6 +95,16 @@ void add_unit_flag(CLI::App& verb, std::string& unit) {
       ->capture_default_str();
 }
 
+void add_feature_angle_flag(CLI::App& verb, const std::string& geometry, double& angle) {
+  verb.add_option("--feature-angle", angle,
+                  geometry +
+                      ": edges between faces turned by more stay sharp, chains of them have a "
+                      "corner where they turn by more [degrees]")
+      ->check(CLI::Range(1.0, 179.0))
+      ->type_name("ANGLE")
+      ->capture_default_str();
+}
+
 const std::string& only_geometry(const std::vector<std::string>& files) {
   if (files.size() != 1) {
     throw OptionError("one CAD file is taken for now, " + std::to_string(files.size()) + " given",

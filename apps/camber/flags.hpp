@@ -46,6 +46,8 @@ void add_to_flags(CLI::App& verb, FormatFlags& flags);
 /// Mesh length per CAD length (the CAD is read in millimetres); 0: found by comparing boxes.
 [[nodiscard]] double scale_of_unit(const std::string& unit);
 void add_unit_flag(CLI::App& verb, std::string& unit);
+/// --feature-angle, which counts for the kinds of -g that `geometry` names.
+void add_feature_angle_flag(CLI::App& verb, const std::string& geometry, double& angle);
 
 /// --patch NAME=RULE
 void add_patch_flag(CLI::App& verb, std::vector<std::string>& patches);

@@ -19,6 +19,7 @@
 
 #include "browser.hpp"
 #include "console.hpp"
+#include "isolation.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -28,7 +29,9 @@ namespace {
 struct ReportFlags {
   CommonFlags common;
   FormatFlags format;
+  IsolationFlags isolation;
   CheckOptions options;
+  double feature_angle = FeatureOptions{}.angle;
   std::string mesh, unit = "auto", page, png, view = "view=iso", size = "1600x1000", report;
   std::vector<std::string> geometry;
 };
@@ -111,6 +114,7 @@ int run(const ReportFlags& flags) {
   const std::string browser = flags.png.empty() ? "" : find_browser();
   ProgressLine line(flags.common.shows_progress());
   line.show("read", 0.0);
+  try_inputs(flags.isolation, flags.mesh, flags.format.reading(), flags.geometry);
   MeshData mesh = io::read_mesh(flags.mesh, flags.format.reading());
   mesh.source = flags.mesh;
   stop_if_interrupted();
@@ -120,7 +124,8 @@ int run(const ReportFlags& flags) {
   if (!flags.geometry.empty()) {
     const std::string& source = only_geometry(flags.geometry);
     is_cad = !is_geometry_without_cad(source);
-    geometry = is_cad ? read_cad(source) : make_geometry(source);
+    geometry = is_cad ? read_cad(source)
+                      : make_geometry(source, {flags.feature_angle, flags.feature_angle});
     scale = scale_of_unit(flags.unit);
     if (is_cad) {
       scale = fit_cad_scale(mesh, *geometry, scale);
@@ -203,7 +208,9 @@ Verb add_report(CLI::App& app) {
       ->check(CLI::PositiveNumber)
       ->type_name("SHARE")
       ->capture_default_str();
+  add_feature_angle_flag(*verb, "-g .stl or .msh", flags->feature_angle);
   add_unit_flag(*verb, flags->unit);
+  add_isolation_flags(*verb, flags->isolation);
   add_from_flag(*verb, flags->format);
   add_common_flags(*verb, flags->common);
   return {verb, &flags->common, [flags] { return run(*flags); }};

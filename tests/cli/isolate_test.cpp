@@ -13,12 +13,13 @@ const std::string k_mesh = bundled("ball/linear.msh"), k_cad = bundled("ball/bod
 TEST_F(CliTest, IsolateChangesNothingOfAGoodRun) {
   ASSERT_EQ(camber({"convert", k_mesh, file("in.cgns"), "-q"}).code, 0);
 
-  for (const auto& verb :
-       std::vector<std::vector<std::string>>{{"convert", file("in.cgns"), file("out.msh")},
-                                             {"check", file("in.cgns")},
-                                             {"info", file("in.cgns")},
-                                             {"info", k_cad},
-                                             {"check", k_mesh, "-g", k_cad}}) {
+  for (const auto& verb : std::vector<std::vector<std::string>>{
+           {"convert", file("in.cgns"), file("out.msh")},
+           {"check", file("in.cgns")},
+           {"info", file("in.cgns")},
+           {"info", k_cad},
+           {"check", k_mesh, "-g", k_cad},
+           {"report", k_mesh, "-g", k_cad, "-o", file("p.html")}}) {
     std::vector<std::string> isolated = verb;
     isolated.emplace_back("--isolate");
     const Outcome plain = camber(verb), with = camber(isolated);

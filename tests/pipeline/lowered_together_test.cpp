@@ -1,11 +1,13 @@
 // Thin wall faces give up their shape with the face that they share a long edge with.
 #include <camber/geom/analytic_model.hpp>
 #include <camber/pipeline/detail/lowered_together.hpp>
+#include <camber/pipeline/wall_repair.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +89,24 @@ TEST_F(LoweredTogether, HasNothingToAddWhereTheFacesAreStraightAlready) {
 
 TEST_F(LoweredTogether, LowersLessWhereTheCapMovesEdgesLess) {
   EXPECT_LE(spread({{thinnest(), 3}}).size(), spread({{thinnest(), 1}}).size());
+}
+
+TEST_F(LoweredTogether, SmoothingLeavesLoweredFacesAlone) {
+  Placement& placement = *c_->placement;
+  std::vector<Index> all(c_->wall.face_count());
+  std::iota(all.begin(), all.end(), 0);
+  const Index slot = thinnest();
+  placement.lower({{slot, 1}});
+  const auto shape = [&] {
+    const std::span<const Vec3> d = placement.face_displacement(slot, placement.max_order());
+    return Points(d.begin(), d.end());
+  };
+  const Points before = shape();
+  const std::vector<Index> changed = smooth_wall_faces(c_->mesh, c_->topology, c_->association,
+                                                       *c_->model, c_->wall, placement, all);
+  ASSERT_FALSE(changed.empty());
+  EXPECT_FALSE(std::binary_search(changed.begin(), changed.end(), slot));
+  EXPECT_EQ(shape(), before);
 }
 
 TEST_F(LoweredTogether, RingsShareAVertex) {

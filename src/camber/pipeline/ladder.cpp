@@ -96,16 +96,20 @@ constexpr int k_max_rings = 12;
 /// Rings around bad cells whose nodes the elastic rung moves.
 constexpr int k_relaxed_rings = 20;
 
-/// One elastic solve around the bad cells, kept if fewer cells are uncertified after it.
+enum class Keep { all_certified, fewer_uncertified };
+
+/// One elastic solve around the bad cells, kept if it certifies all of them, or as asked. Columns
+/// that are carried again beside relaxed ones shear thin cells: so before walls are lowered only a
+/// complete success may stay.
 /// @param still  then the uncertified cells
-bool relax_around(CurvedMesh& curved, const std::vector<Index>& bad, LadderResult& result,
-                  std::vector<Index>& still) {
+bool relax_around(CurvedMesh& curved, const std::vector<Index>& bad, Keep keep,
+                  LadderResult& result, std::vector<Index>& still) {
   CurvedMesh relaxed = curved;
   const ElasticResult solve =
       relax_elastic_around(relaxed, bad, k_relaxed_rings, free_nodes(curved));
   add_solve(solve, result.elastic);
   still = uncertified_cells(relaxed, solve.cells);
-  if (still.size() >= bad.size()) return false;
+  if (keep == Keep::all_certified ? !still.empty() : still.size() >= bad.size()) return false;
   curved = std::move(relaxed);
   ++result.elastic_patches;
   return true;
@@ -146,15 +150,17 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     std::vector<Index> changed =
         smooth_wall_faces(mesh, topology, association, model, wall, placement, to_smooth);
     result.wall_faces_smoothed += changed.size();
+    const auto relax = [&](Keep keep) {
+      std::vector<Index> all = bad, still;
+      all.insert(all.end(), to_lower.begin(), to_lower.end());
+      make_sorted_set(all);
+      if (!relax_around(curved, all, keep, result, still)) return false;
+      bad = std::move(still);
+      return true;
+    };
     if (changed.empty() && !is_relaxed) {
       is_relaxed = true;
-      to_lower.insert(to_lower.end(), bad.begin(), bad.end());
-      make_sorted_set(to_lower);
-      std::vector<Index> still;
-      if (relax_around(curved, to_lower, result, still)) {
-        bad = std::move(still);
-        continue;
-      }
+      if (relax(Keep::all_certified)) continue;
     }
     for (Index slot : slots) {
       if (std::binary_search(changed.begin(), changed.end(), slot)) continue;
@@ -176,7 +182,8 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
       lower();
     }
     make_sorted_set(changed);
-    if (changed.empty()) {  // nothing left to try: all that is bad is scaled back
+    if (changed.empty()) {  // nothing left to lower: what the solve leaves is scaled back
+      if (relax(Keep::fewer_uncertified)) break;
       bad.insert(bad.end(), to_lower.begin(), to_lower.end());
       make_sorted_set(bad);
       break;

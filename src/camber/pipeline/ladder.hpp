@@ -32,7 +32,7 @@ using Carry = std::function<std::vector<Index>(const std::vector<Index>& cells)>
 ///   is
 ///   2. wall faces under what is left are smoothed along the CAD, once each (wall_repair.hpp)
 ///   3. once, where no wall face could be smoothed: an elastic solve over the rings around what is
-///   left
+///   left, kept if it certifies all; tried again before 5
 ///   4. wall faces under what is left get one order less of shape, together with thin neighbours
 ///   that this would fold (detail/lowered_together.hpp), and their columns are carried again; where
 ///   they are straight already, the rings of wall faces around them are straightened

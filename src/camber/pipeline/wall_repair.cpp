@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace camber {
 namespace {
@@ -59,10 +60,17 @@ std::vector<Index> smooth_wall_faces(const LinearMesh& mesh, const Topology& top
   std::vector<Index> changed;
   if (slots.empty()) return changed;
   const Neighbourhoods neighbourhoods(topology, association, wall);
+  // A lowered face, and so its edges, keeps the shape that it was given.
+  const auto is_lowered = [&](Index slot) {
+    return placement.face_cap(slot) < placement.max_order();
+  };
   for (Index slot : slots) {
+    if (is_lowered(slot)) continue;
     if (std::find(changed.begin(), changed.end(), slot) != changed.end()) continue;
-    detail::WallPatch faces(mesh, topology, association, model, wall, placement,
-                            neighbourhoods.around(slot), placement.max_order());
+    std::vector<Index> around = neighbourhoods.around(slot);
+    std::erase_if(around, is_lowered);
+    detail::WallPatch faces(mesh, topology, association, model, wall, placement, std::move(around),
+                            placement.max_order());
     if (!smooth_surface(faces.patch(), faces.on_surface())) continue;
     faces.store(placement);
     for (int q = placement.max_order() - 1; q >= 2; --q) faces.store_sampled(placement, q);
