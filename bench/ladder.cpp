@@ -16,6 +16,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "program.hpp"
+
 namespace camber {
 namespace {
 
@@ -152,10 +154,6 @@ std::string json_of(const std::vector<LadderRow>& rows) {
   return all.dump(1) + "\n";
 }
 
-bool is_wanted(const std::vector<std::string>& names, const std::string& name) {
-  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
-
 std::vector<LadderRow> measure(const Flags& flags,
                                const std::function<void(const LadderRow&)>& tell) {
   std::vector<LadderRow> rows;
@@ -271,10 +269,5 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace camber
 
 int main(int argc, char** argv) {
-  try {
-    return camber::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "ladder: {}\n", error.what());
-    return 2;
-  }
+  return camber::run_program("ladder", [&] { return camber::parse_and_run(argc, argv); });
 }

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "ladder.hpp"
+#include "program.hpp"
 
 namespace camber {
 namespace {
@@ -45,11 +46,8 @@ PolishResult polish_copy(const CurvedMesh& curved, const Flags& flags, int evalu
 }
 
 void measure(const BodyCase& body, double first, int order, const Flags& flags) {
-  CurveOptions options;
-  options.orders.min_order = options.orders.max_order = order;
-  options.scale = 1.0;
-  options.smoothing = Smoothing::none;
-  const CurveResult result = curve(body.mesh(first), *body.model(), options);
+  const CurveResult result = curve(body.mesh(first), *body.model(),
+                                   curve_options({.first_over_edge = first, .order = order}));
   const CurvedMesh& curved = *result.curved;
   double lowest = 0.0, mean = 0.0;
   const PolishResult best = polish_copy(curved, flags, flags.long_run, 1e-10, lowest, mean);
@@ -76,10 +74,7 @@ int run(const Flags& flags) {
   }
   fmt::print("{:>8}{:>8}{:>8}\n", "minC*", "meanC*", "gain %");
   for (const BodyCase& body : body_cases(CaseSize::small)) {
-    if (!flags.bodies.empty() &&
-        std::find(flags.bodies.begin(), flags.bodies.end(), body.body) == flags.bodies.end()) {
-      continue;
-    }
+    if (!is_wanted(flags.bodies, body.body)) continue;
     for (double first : flags.first_cells) {
       for (int order : flags.orders) measure(body, first, order, flags);
     }
@@ -109,10 +104,5 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace camber
 
 int main(int argc, char** argv) {
-  try {
-    return camber::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "polish_optimum: {}\n", error.what());
-    return 2;
-  }
+  return camber::run_program("polish_optimum", [&] { return camber::parse_and_run(argc, argv); });
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "ladder.hpp"
+#include "program.hpp"
 #include "random_wall.hpp"
 
 namespace camber {
@@ -85,10 +86,5 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace camber
 
 int main(int argc, char** argv) {
-  try {
-    return camber::parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "random_cases: {}\n", error.what());
-    return 2;
-  }
+  return camber::run_program("random_cases", [&] { return camber::parse_and_run(argc, argv); });
 }

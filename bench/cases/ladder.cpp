@@ -40,15 +40,6 @@ class StageClock {
   std::clock_t since_ = std::clock();
 };
 
-CurveOptions curve_options(const LadderSettings& settings) {
-  CurveOptions options;
-  options.orders.min_order = options.orders.max_order = settings.order;
-  options.propagation = settings.start;
-  options.smoothing = settings.smoothing;
-  options.scale = 1.0;
-  return options;
-}
-
 /// The mesh as propagated, with nothing done to it.
 void survey_start(const MeshData& data, const BodyCase& body, LadderRow& row) {
   const auto c = make_case(data, body.model(), row.settings.order);
@@ -99,6 +90,19 @@ void read_result(const CurveResult& result, LadderRow& row) {
   row.iterations = 0;
   for (const auto& [pass, count] : iterations) row.iterations += count;
   row.end = mesh_cost(*result.curved);
+}
+
+CurveOptions curve_options(const LadderSettings& settings) {
+  CurveOptions options;
+  options.orders.min_order = options.orders.max_order = settings.order;
+  options.propagation = settings.start;
+  options.smoothing = settings.smoothing;
+  options.scale = 1.0;
+  return options;
+}
+
+bool is_wanted(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
 LadderRow climb_ladder(const BodyCase& body, const LadderSettings& settings) {

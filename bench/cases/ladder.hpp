@@ -47,6 +47,12 @@ struct LadderRow {
   }
 };
 
+/// What climb_ladder() asks of curve().
+[[nodiscard]] CurveOptions curve_options(const LadderSettings& settings);
+
+/// True if the name is in the list of those asked for, or the list is empty.
+[[nodiscard]] bool is_wanted(const std::vector<std::string>& names, const std::string& name);
+
 /// Runs curve() on the case. CPU times are those of the whole process: run one at a time.
 /// Errors of the library are put in the row.
 [[nodiscard]] LadderRow climb_ladder(const BodyCase& body, const LadderSettings& settings);

@@ -45,7 +45,7 @@ class LoweredTogether : public ::testing::Test {
   /// Height of a wall face: its area over its longest edge.
   double height(Index slot) const {
     const auto& v = c_->topology.face2vertex[at(c_->wall.faces[at(slot)])];
-    const auto x = [&](int i) { return c_->mesh.vertices[at(v[sz(i % 4)])]; };
+    const auto x = [&](int i) { return c_->mesh.vertices[at(v[at(i % 4)])]; };
     double longest = 0.0;
     for (int i = 0; i < 4; ++i) longest = std::max(longest, (x(i + 1) - x(i)).norm());
     return 0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm() / longest;

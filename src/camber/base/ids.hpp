@@ -13,7 +13,5 @@ using GlobalId = std::int64_t;
 inline constexpr Index k_none = -1;
 
 [[nodiscard]] constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-/// The same for local numbers (corners, lattice points).
-[[nodiscard]] constexpr std::size_t sz(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace camber

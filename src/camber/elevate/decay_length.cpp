@@ -99,7 +99,7 @@ std::vector<Cap> caps_of_columns(const LinearMesh& mesh, const Topology& topolog
     if (columns.cell_face_slot[at(c)] != k_none) continue;
     for (Index f : topology.faces_of_cell(c)) {
       const std::span<const Index> foot(topology.face2vertex[at(f)].data(),
-                                        sz(topology.corners_of_face(f)));
+                                        at(topology.corners_of_face(f)));
       const bool is_top = std::all_of(foot.begin(), foot.end(), [&](Index v) {
         return columns.base[at(v)] != k_none && columns.height[at(v)] > 0.0;
       });
@@ -122,31 +122,11 @@ std::vector<Cap> caps_of_columns(const LinearMesh& mesh, const Topology& topolog
   return caps;
 }
 
-}  // namespace
-
-double decay(double s) {
-  if (s >= 1.0) return 0.0;
-  if (s <= 0.0) return 1.0;
-  return (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
-}
-
-std::vector<double> decay_lengths(const LinearMesh& mesh, const Topology& topology,
-                                  const Wall& wall, const Placement& placement,
-                                  const LayerFieldOptions& options) {
-  if (options.decay == Decay::cell) return lengths_over_cells(mesh, topology, wall);
-  const std::vector<double> largest = largest_displacements(mesh, topology, wall, placement);
-  std::vector<double> length = mean_wall_edges(mesh, topology, wall);
-  for (std::size_t v = 0; v < length.size(); ++v) {
-    length[v] = std::max(options.reach * length[v], options.reach_per_sagitta * largest[v]);
-  }
-  return length;
-}
-
-void limit_lengths_under_caps(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
-                              const Placement& placement, const Columns& columns,
+/// @param largest  displacement of the wall around each wall vertex
+void limit_lengths_under_caps(const LinearMesh& mesh, const Topology& topology,
+                              const Columns& columns, const std::vector<double>& largest,
                               std::vector<double>& length) {
   const std::vector<Cap> caps = caps_of_columns(mesh, topology, columns);
-  const std::vector<double> largest = largest_displacements(mesh, topology, wall, placement);
   for (std::size_t v = 0; v < length.size(); ++v) {
     const double d = largest[v], allowed = k_cap_share * caps[v].height;
     const auto is_calm = [&](double l) { return d * decay(caps[v].column / l) <= allowed; };
@@ -158,6 +138,27 @@ void limit_lengths_under_caps(const LinearMesh& mesh, const Topology& topology, 
     }
     length[v] = low;
   }
+}
+
+}  // namespace
+
+double decay(double s) {
+  if (s >= 1.0) return 0.0;
+  if (s <= 0.0) return 1.0;
+  return (1.0 - s) * (1.0 - s) * (1.0 + 2.0 * s);
+}
+
+std::vector<double> decay_lengths(const LinearMesh& mesh, const Topology& topology,
+                                  const Wall& wall, const Placement& placement,
+                                  const Columns& columns, const LayerFieldOptions& options) {
+  if (options.decay == Decay::cell) return lengths_over_cells(mesh, topology, wall);
+  const std::vector<double> largest = largest_displacements(mesh, topology, wall, placement);
+  std::vector<double> length = mean_wall_edges(mesh, topology, wall);
+  for (std::size_t v = 0; v < length.size(); ++v) {
+    length[v] = std::max(options.reach * length[v], options.reach_per_sagitta * largest[v]);
+  }
+  limit_lengths_under_caps(mesh, topology, columns, largest, length);
+  return length;
 }
 
 void limit_lengths_in_gaps(const LinearMesh& mesh, const Wall& wall, const FaceTree& wall_tree,

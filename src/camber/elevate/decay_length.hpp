@@ -25,18 +25,15 @@ struct LayerFieldOptions {
 
 /// Decay length L at every wall vertex, 0 elsewhere [length].
 ///   layer: L = max(reach * (mean wall edge at the vertex), reach_per_sagitta * (largest |d| around
-///   it)) cell:  L = height of the lowest cell on the wall faces around it; the other options do
-///   not count
+///   it)); shorter under flat cells on top of the layers, whose apex, a vertex, stays: there the
+///   displacement left, |d| phi(t / L) at the top of a column of height t, may be k_cap_share of
+///   the cell's height, if L = k_least_reach |d| gets that far down
+///   cell:  L = height of the lowest cell on the wall faces around it; the other options do not
+///   count
 [[nodiscard]] std::vector<double> decay_lengths(const LinearMesh& mesh, const Topology& topology,
                                                 const Wall& wall, const Placement& placement,
+                                                const Columns& columns,
                                                 const LayerFieldOptions& options);
-
-/// Shortens lengths under flat cells on top of the layers, whose apex, a vertex, stays: there the
-/// displacement left, |d| phi(t / L) at the top of a column of height t, may be k_cap_share of the
-/// cell's height, if L = k_least_reach |d| gets that far down.
-void limit_lengths_under_caps(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
-                              const Placement& placement, const Columns& columns,
-                              std::vector<double>& length);
 
 /// Shortens lengths so that the decay ends before the middle between two facing walls. The middle:
 /// a ball that touches the wall at the vertex from inside the fluid is shrunk until it is empty.

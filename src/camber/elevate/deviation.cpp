@@ -7,8 +7,6 @@
 #include <algorithm>
 
 namespace camber {
-namespace {}  // namespace
-
 Deviation measure_face(Projector& projector, const GeometryGroup& group, Shape shape, int q,
                        std::span<const Vec3> nodes, const WallCorner* seed) {
   const Quadrature& rule = sixth_order(shape);
@@ -39,8 +37,8 @@ Deviation measure_face(Projector& projector, const GeometryGroup& group, Shape s
 
 void Placement::measure() {
   for (int q = 1; q <= max_order_; ++q) {
-    face_deviation_[sz(q)].resize(wall_.face_count());
-    edge_deviation_[sz(q)].assign(wall_.edge_count(), 0.0);
+    face_deviation_[at(q)].resize(wall_.face_count());
+    edge_deviation_[at(q)].assign(wall_.edge_count(), 0.0);
   }
   parallel_for_with(
       wall_.face_count(), 32, [&] { return model_.projector(); },
@@ -54,7 +52,7 @@ void Placement::measure() {
       });
   largest_ = 0.0;
   for (const Points& moved :
-       {edge_displacement_[sz(max_order_)], face_displacement_[sz(max_order_)]}) {
+       {edge_displacement_[at(max_order_)], face_displacement_[at(max_order_)]}) {
     for (const Vec3& d : moved) largest_ = std::max(largest_, d.norm());
   }
 }
@@ -69,7 +67,7 @@ void Placement::measure_slot(Projector& projector, Index slot) {
       const std::span<const Vec3> moved = face_displacement(slot, q);
       for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += moved[i];
     }
-    face_deviation_[sz(q)][at(slot)] = measure_face(
+    face_deviation_[at(q)][at(slot)] = measure_face(
         projector, group, shape, q, nodes, &wall_.corners[at(wall_.face_corners[at(slot)][0])]);
   }
 }
@@ -84,16 +82,16 @@ void Placement::measure_edge(Projector& projector, Index slot) {
     std::array<Vec3, 8> nodes;
     for (int i = 0; i <= q; ++i) {
       const double s = static_cast<double>(i) / q;
-      nodes[sz(i)] = (1.0 - s) * a + s * b;
-      if (q > 1) nodes[sz(i)] += edge_displacement(slot, q)[sz(i)];
+      nodes[at(i)] = (1.0 - s) * a + s * b;
+      if (q > 1) nodes[at(i)] += edge_displacement(slot, q)[at(i)];
     }
     double farthest = 0.0;
     for (const Vec3& xi : sixth_order(Shape::line).points) {
-      const Vec3 x = evaluate(Shape::line, q, std::span(nodes.data(), sz(q + 1)), xi);
+      const Vec3 x = evaluate(Shape::line, q, std::span(nodes.data(), at(q + 1)), xi);
       const Projection foot = projector.closest(curve, x);
       if (foot.status != ProjectionStatus::failed) farthest = std::max(farthest, foot.distance);
     }
-    edge_deviation_[sz(q)][at(slot)] = farthest;
+    edge_deviation_[at(q)][at(slot)] = farthest;
   }
 }
 

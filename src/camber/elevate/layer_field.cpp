@@ -31,7 +31,7 @@ void vertex_weights(Shape shape, const Vec3& xi, std::span<double> weight) {
   std::array<double, 8> N{};
   lagrange_values(shape, 1, xi, std::span(N.data(), weight.size()));
   const std::vector<int>& corner = lattice_map(shape, 1).corner;
-  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = N[sz(corner[i])];
+  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = N[at(corner[i])];
 }
 
 }  // namespace
@@ -46,13 +46,10 @@ LayerField::LayerField(const LinearMesh& mesh, const Topology& topology,
       placement_(placement),
       columns_(columns),
       decay_(options.decay),
-      length_(decay_lengths(mesh, topology, wall, placement, options)) {
+      length_(decay_lengths(mesh, topology, wall, placement, columns, options)) {
   const std::vector<int> sides = wall_sides(mesh_, topology_, wall_);
   for (int side : sides) label_count_ = std::max(label_count_, side + 1);
   wall_tree_ = FaceTree(mesh_, topology_, wall_.faces, sides);
-  if (decay_ == Decay::layer) {
-    limit_lengths_under_caps(mesh, topology, wall, placement, columns, length_);
-  }
   limit_lengths_in_gaps(mesh_, wall_, wall_tree_, length_);
   for (double l : length_) longest_ = std::max(longest_, l);
   for (Index f = 0; at(f) < topology_.face_count(); ++f) {
@@ -83,7 +80,7 @@ double LayerField::wall_length(Index slot, const Vec3& xi) const {
   corner_weights(topology_.face_shape[at(f)], xi, weight);
   double length = 0.0;
   for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-    length += weight[sz(i)] * length_[at(topology_.face2vertex[at(f)][sz(i)])];
+    length += weight[at(i)] * length_[at(topology_.face2vertex[at(f)][at(i)])];
   }
   return length;
 }
@@ -222,10 +219,10 @@ void LayerField::face(Index f, int q, std::span<Vec3> u) const {
   const std::span<const int> inner = interior_nodes(shape, q);
   if (slot != k_none) {
     const std::span<const Vec3> d = placement_.face_displacement(slot, q);
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] = d[sz(inner[i])];
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = d[at(inner[i])];
     return;
   }
-  const std::size_t n = sz(topology_.corners_of_face(f));
+  const std::size_t n = at(topology_.corners_of_face(f));
   const std::span<const Index> v(topology_.face2vertex[at(f)].data(), n);
   std::array<Index, 2> column_slots{k_none, k_none};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -235,7 +232,7 @@ void LayerField::face(Index f, int q, std::span<Vec3> u) const {
   const Foot foot = foot_of(v, column_slots);
   for (std::size_t i = 0; i < u.size(); ++i) {
     std::array<double, 4> weight{};
-    corner_weights(shape, lattice_xi(shape, q)[sz(inner[i])], weight);
+    corner_weights(shape, lattice_xi(shape, q)[at(inner[i])], weight);
     Vec3 x = Vec3::Zero();
     for (std::size_t k = 0; k < n; ++k) x += weight[k] * mesh_.vertices[at(v[k])];
     u[i] = displacement(x, q, &foot, std::span(weight.data(), n));
@@ -252,7 +249,7 @@ void LayerField::cell(Index c, int q, std::span<Vec3> u) const {
   for (std::size_t i = 0; i < u.size(); ++i) {
     std::array<double, 8> weight{};
     const std::span<double> used(weight.data(), v.size());
-    vertex_weights(shape, lattice_xi(shape, q)[sz(inner[i])], used);
+    vertex_weights(shape, lattice_xi(shape, q)[at(inner[i])], used);
     Vec3 x = Vec3::Zero();
     for (std::size_t k = 0; k < v.size(); ++k) x += weight[k] * mesh_.vertices[at(v[k])];
     u[i] = displacement(x, q, &foot, used);

@@ -7,8 +7,6 @@
 #include <algorithm>
 
 namespace camber {
-namespace {}  // namespace
-
 std::vector<Index> Placement::lower(const std::vector<std::pair<Index, int>>& caps) {
   std::vector<Index> edges, changed;
   for (const auto& [slot, wanted] : caps) {
@@ -18,7 +16,7 @@ std::vector<Index> Placement::lower(const std::vector<std::pair<Index, int>>& ca
     changed.push_back(slot);
     const Index f = wall_.faces[at(slot)];
     for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-      const Index e = topology_.face2edge[at(f)][sz(i)], edge = wall_.edge_slot[at(e)];
+      const Index e = topology_.face2edge[at(f)][at(i)], edge = wall_.edge_slot[at(e)];
       if (association_.edge2curve[at(e)].dim == 1 && cap > 1) continue;
       if (edge_cap_[at(edge)] <= cap) continue;
       edge_cap_[at(edge)] = cap;
@@ -40,21 +38,29 @@ std::vector<Index> Placement::lower(const std::vector<std::pair<Index, int>>& ca
   return changed;
 }
 
+Points Placement::capped_edge_displacement(Index slot, int cap, int q) const {
+  Points capped(at(q + 1), Vec3::Zero());
+  if (cap < 2) return capped;
+  const std::span<const Vec3> low = edge_displacement(slot, cap);
+  const MatX& elevate = elevation_matrix(Shape::line, cap, q);
+  for (int i = 0; i <= q; ++i) {
+    for (int k = 0; k <= cap; ++k) capped[at(i)] += elevate(i, k) * low[at(k)];
+  }
+  return capped;
+}
+
 void Placement::cap_edge(Index slot) {
   const int cap = edge_cap_[at(slot)];
   const std::array<Index, 2>& v = topology_.edge2vertex[at(wall_.edges[at(slot)])];
   const Vec3 &a = mesh_.vertices[at(v[0])], &b = mesh_.vertices[at(v[1])];
   for (int q = cap + 1; q <= max_order_; ++q) {
-    const std::span<Vec3> moved{edge_displacement_[sz(q)].data() + at(slot) * sz(q + 1), sz(q + 1)};
-    const std::span<Vec3> nodes{edge_nodes_[sz(q)].data() + at(slot) * sz(q - 1), sz(q - 1)};
-    const MatX& elevate = elevation_matrix(Shape::line, cap, q);
+    const std::span<Vec3> moved{edge_displacement_[at(q)].data() + at(slot) * at(q + 1), at(q + 1)};
+    const std::span<Vec3> nodes{edge_nodes_[at(q)].data() + at(slot) * at(q - 1), at(q - 1)};
+    const Points capped = capped_edge_displacement(slot, cap, q);
     for (int i = 1; i < q; ++i) {
-      Vec3 u = Vec3::Zero();
-      for (int k = 0; k <= cap && cap > 1; ++k)
-        u += elevate(i, k) * edge_displacement(slot, cap)[sz(k)];
       const double s = static_cast<double>(i) / q;
-      moved[sz(i)] = u;
-      nodes[sz(i - 1)] = (1.0 - s) * a + s * b + u;
+      moved[at(i)] = capped[at(i)];
+      nodes[at(i - 1)] = (1.0 - s) * a + s * b + capped[at(i)];
     }
   }
 }
@@ -67,9 +73,9 @@ void Placement::cap_face(Index slot) {
   const Shape shape = topology_.face_shape[at(f)];
   for (int q = cap + 1; q <= max_order_; ++q) {
     const std::span<Vec3> moved{
-        face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
-        sz(node_count(shape, q))};
-    const std::span<Vec3> nodes{face_nodes_[sz(q)].data() + face_node_offset_[sz(q)][at(slot)],
+        face_displacement_[at(q)].data() + face_displacement_offset_[at(q)][at(slot)],
+        at(node_count(shape, q))};
+    const std::span<Vec3> nodes{face_nodes_[at(q)].data() + face_node_offset_[at(q)][at(slot)],
                                 interior_nodes(shape, q).size()};
     Points low(moved.size(), Vec3::Zero());
     if (cap > 1) {
@@ -84,14 +90,14 @@ void Placement::cap_face(Index slot) {
     Points beyond(moved.size(), Vec3::Zero());
     copy_edges_to_face(slot, q, beyond);
     for (const std::vector<int>& edge : lattice_map(shape, q).edge_interior) {
-      for (int node : edge) beyond[sz(node)] -= low[sz(node)];
+      for (int node : edge) beyond[at(node)] -= low[at(node)];
     }
     blend_face_interior(shape, q, beyond);
     const Points straight = straight_face_nodes(mesh_, topology_, f, q);
     std::size_t k = 0;
     for (int node : interior_nodes(shape, q)) {
-      moved[sz(node)] = low[sz(node)] + beyond[sz(node)];
-      nodes[k++] = straight[sz(node)] + moved[sz(node)];
+      moved[at(node)] = low[at(node)] + beyond[at(node)];
+      nodes[k++] = straight[at(node)] + moved[at(node)];
     }
   }
 }

@@ -28,8 +28,8 @@ using StandIn = std::array<std::uint8_t, static_cast<std::size_t>(k_max_order) +
 /// top.
 class Shapes {
  public:
-  Shapes(Shape shape, int top) : shape_(shape), top_(top), n_(sz(node_count(shape, top))) {
-    points_.assign(n_ * sz(top), Vec3::Zero());
+  Shapes(Shape shape, int top) : shape_(shape), top_(top), n_(at(node_count(shape, top))) {
+    points_.assign(n_ * at(top), Vec3::Zero());
   }
   /// u: displacements on the lattice of order q. Order 1 is zero: vertices do not move.
   void set(int q, std::span<const Vec3> u) {
@@ -39,7 +39,7 @@ class Shapes {
       for (std::size_t c = 0; c < u.size(); ++c) {
         sum += elevate(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) * u[c];
       }
-      points_[sz(q - 1) * n_ + r] = sum;
+      points_[at(q - 1) * n_ + r] = sum;
     }
   }
   /// For every order p the lowest q whose points are within `allowed` of those of p.
@@ -48,7 +48,7 @@ class Shapes {
     for (int p = 1; p <= top_; ++p) {
       int q = 1;
       while (q < p && distance(q, p) > allowed) ++q;
-      lowest[sz(p)] = static_cast<std::uint8_t>(q);
+      lowest[at(p)] = static_cast<std::uint8_t>(q);
     }
     return lowest;
   }
@@ -58,7 +58,7 @@ class Shapes {
     double largest = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       largest =
-          std::max(largest, (points_[sz(a - 1) * n_ + i] - points_[sz(b - 1) * n_ + i]).norm());
+          std::max(largest, (points_[at(a - 1) * n_ + i] - points_[at(b - 1) * n_ + i]).norm());
     }
     return largest;
   }
@@ -78,7 +78,7 @@ class EdgeMoves {
         place_(edge_count, k_none),
         lowest_(edge_count, static_cast<std::uint8_t>(top)),
         chunks_((edge_count + k_grain - 1) / k_grain),
-        zero_(sz(top), Vec3::Zero()) {}
+        zero_(at(top), Vec3::Zero()) {}
 
   /// Keeps what is known of an edge: the orders lowest..top in a list that starts with the highest.
   /// Edges of one chunk of k_grain by one thread, in order.
@@ -95,11 +95,11 @@ class EdgeMoves {
   [[nodiscard]] std::span<const Vec3> at_order(const LayerField& field, Index e, int q,
                                                std::span<Vec3> room) const {
     if (q < lowest_[at(e)]) {
-      field.edge(e, q, room.first(sz(q - 1)));
-      return room.first(sz(q - 1));
+      field.edge(e, q, room.first(at(q - 1)));
+      return room.first(at(q - 1));
     }
-    if (place_[at(e)] == k_none) return {zero_.data(), sz(q - 1)};
-    return {chunks_[at(e) / k_grain].data() + place_[at(e)] + first(q), sz(q - 1)};
+    if (place_[at(e)] == k_none) return {zero_.data(), at(q - 1)};
+    return {chunks_[at(e) / k_grain].data() + place_[at(e)] + first(q), at(q - 1)};
   }
   /// Place of order q in the list of an edge.
   [[nodiscard]] std::ptrdiff_t first(int q) const { return (top_ * (top_ - 1) - q * (q - 1)) / 2; }
@@ -120,17 +120,17 @@ void face_lattice(const Topology& topology, const LayerField& field, const EdgeM
   std::fill(u.begin(), u.end(), Vec3::Zero());
   std::array<Vec3, 36> own;
   for (int i = 0; i < topology.corners_of_face(f); ++i) {
-    const Index e = topology.face2edge[at(f)][sz(i)];
+    const Index e = topology.face2edge[at(f)][at(i)];
     const std::span<const Vec3> line = edges.at_order(field, e, q, own);
-    const bool reversed = topology.edge2vertex[at(e)][0] != topology.face2vertex[at(f)][sz(i)];
-    const std::vector<int>& slots = map.edge_interior[sz(i)];
+    const bool reversed = topology.edge2vertex[at(e)][0] != topology.face2vertex[at(f)][at(i)];
+    const std::vector<int>& slots = map.edge_interior[at(i)];
     for (std::size_t k = 0; k < slots.size(); ++k) {
-      u[sz(slots[k])] = line[reversed ? line.size() - 1 - k : k];
+      u[at(slots[k])] = line[reversed ? line.size() - 1 - k : k];
     }
   }
   const std::span<const int> inner = interior_nodes(shape, q);
   field.face(f, q, std::span(own.data(), inner.size()));
-  for (std::size_t k = 0; k < inner.size(); ++k) u[sz(inner[k])] = own[k];
+  for (std::size_t k = 0; k < inner.size(); ++k) u[at(inner[k])] = own[k];
 }
 
 void request_on_surface(const LinearMesh& mesh, const Topology& topology, const Wall& wall,
@@ -150,7 +150,7 @@ void request_on_surface(const LinearMesh& mesh, const Topology& topology, const 
     }
     raise(requests.face[at(f)], q);
     for (int i = 0; i < topology.corners_of_face(f); ++i) {
-      const Index e = topology.face2edge[at(f)][sz(i)];
+      const Index e = topology.face2edge[at(f)][at(i)];
       raise(requests.edge[at(e)], q);
       double& shortest = edge_length[at(wall.edge_slot[at(e)])];
       shortest = std::min(shortest, length);
@@ -211,9 +211,9 @@ StandIns find_stand_ins(const Topology& topology, const LayerField& field,
       result.edge[i].fill(1);
       int lowest = top;
       for (int q = top; q >= 2; --q) {
-        const std::span<Vec3> line(u.data(), sz(q + 1));
+        const std::span<Vec3> line(u.data(), at(q + 1));
         line.front() = line.back() = Vec3::Zero();
-        const std::span<Vec3> inside(all.data() + moves.first(q), sz(q - 1));
+        const std::span<Vec3> inside(all.data() + moves.first(q), at(q - 1));
         field.edge(e, q, inside);
         lowest = q;
         std::copy(inside.begin(), inside.end(), line.begin() + 1);
@@ -233,7 +233,7 @@ StandIns find_stand_ins(const Topology& topology, const LayerField& field,
       const double most = allowed(topology.face2cell[f]);
       result.face[f].fill(1);
       for (int q = top; q >= 2; --q) {
-        const std::span<Vec3> lattice(u.data(), sz(node_count(shape, q)));
+        const std::span<Vec3> lattice(u.data(), at(node_count(shape, q)));
         face_lattice(topology, field, moves, static_cast<Index>(f), q, lattice);
         if (q == top && is_still(lattice, most)) break;
         shapes.set(q, lattice);
@@ -263,13 +263,13 @@ void request_in_volume(const Topology& topology, const StandIns& stand_ins,
       const Index c = work.back();
       work.pop_back();
       for (Index e : topology.edges_of_cell(c)) {
-        const std::uint8_t q = stand_ins.edge[at(e)][sz(p)];
+        const std::uint8_t q = stand_ins.edge[at(e)][at(p)];
         if (requests.edge[at(e)] >= q) continue;
         requests.edge[at(e)] = q;
         for (Index other : topology.cells_of_edge(e)) raise(other, q, p);
       }
       for (Index f : topology.faces_of_cell(c)) {
-        const std::uint8_t q = std::max(stand_ins.face[at(f)][sz(p)], requests.face[at(f)]);
+        const std::uint8_t q = std::max(stand_ins.face[at(f)][at(p)], requests.face[at(f)]);
         requests.face[at(f)] = q;
         for (Index other : topology.face2cell[at(f)]) raise(other, std::max<int>(q, p - 1), p);
       }
@@ -319,7 +319,7 @@ double deviation_length(const LinearMesh& mesh, const Topology& topology, Index 
     case DeviationLength::face:
       for (int i = 0; i < topology.corners_of_face(face); ++i) {
         const std::array<Index, 2>& v =
-            topology.edge2vertex[at(topology.face2edge[at(face)][sz(i)])];
+            topology.edge2vertex[at(topology.face2edge[at(face)][at(i)])];
         length = std::min(length, (mesh.vertices[at(v[0])] - mesh.vertices[at(v[1])]).norm());
       }
       return length;

@@ -85,9 +85,9 @@ Points slid_inwards(Shape shape, int q, std::span<const Vec3> normal, const Poin
   }
   for (const std::vector<int>& edge : lattice_map(shape, q).edge_interior) {
     for (int node : edge) {
-      const Vec3 across = direction_at(shape, normal, lattice_xi(shape, q)[sz(node)]).normalized();
-      const Vec3& u = moved[sz(node)];
-      added[sz(node)] = u - u.dot(across) * across - below[sz(node)];
+      const Vec3 across = direction_at(shape, normal, lattice_xi(shape, q)[at(node)]).normalized();
+      const Vec3& u = moved[at(node)];
+      added[at(node)] = u - u.dot(across) * across - below[at(node)];
     }
   }
   blend_face_interior(shape, q, added);
@@ -107,9 +107,9 @@ Placement::Placement(const LinearMesh& mesh, const Topology& topology,
       wall_(wall),
       max_order_(max_order) {
   for (int q = 2; q <= max_order_; ++q) {
-    edge_nodes_[sz(q)].resize(wall_.edge_count() * sz(q - 1));
-    edge_displacement_[sz(q)].assign(wall_.edge_count() * sz(q + 1), Vec3::Zero());
-    std::vector<Index>&nodes = face_node_offset_[sz(q)], &all = face_displacement_offset_[sz(q)];
+    edge_nodes_[at(q)].resize(wall_.edge_count() * at(q - 1));
+    edge_displacement_[at(q)].assign(wall_.edge_count() * at(q + 1), Vec3::Zero());
+    std::vector<Index>&nodes = face_node_offset_[at(q)], &all = face_displacement_offset_[at(q)];
     nodes.assign(1, 0);
     all.assign(1, 0);
     for (Index f : wall_.faces) {
@@ -117,8 +117,8 @@ Placement::Placement(const LinearMesh& mesh, const Topology& topology,
       nodes.push_back(nodes.back() + static_cast<Index>(interior_nodes(shape, q).size()));
       all.push_back(all.back() + static_cast<Index>(node_count(shape, q)));
     }
-    face_nodes_[sz(q)].resize(at(nodes.back()));
-    face_displacement_[sz(q)].assign(at(all.back()), Vec3::Zero());
+    face_nodes_[at(q)].resize(at(nodes.back()));
+    face_displacement_[at(q)].assign(at(all.back()), Vec3::Zero());
   }
   edge_unplaced_.assign(wall_.edge_count(), 0);
   edge_cap_.assign(wall_.edge_count(), static_cast<std::uint8_t>(max_order_));
@@ -136,26 +136,26 @@ void Placement::find_planes() {
     const Patch* patch = association_.patch_of(f);
     if (!patch || patch->kind != PatchKind::plane || wall_.face_slot[at(f)] != k_none) continue;
     for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-      const Index slot = wall_.edge_slot[at(topology_.face2edge[at(f)][sz(i)])];
+      const Index slot = wall_.edge_slot[at(topology_.face2edge[at(f)][at(i)])];
       if (slot != k_none) plane_of_edge_[at(slot)] = association_.face2patch[at(f)];
     }
   }
 }
 
 std::span<const Vec3> Placement::edge_nodes(Index slot, int q) const {
-  return {edge_nodes_[sz(q)].data() + at(slot) * sz(q - 1), sz(q - 1)};
+  return {edge_nodes_[at(q)].data() + at(slot) * at(q - 1), at(q - 1)};
 }
 std::span<const Vec3> Placement::edge_displacement(Index slot, int q) const {
-  return {edge_displacement_[sz(q)].data() + at(slot) * sz(q + 1), sz(q + 1)};
+  return {edge_displacement_[at(q)].data() + at(slot) * at(q + 1), at(q + 1)};
 }
 std::span<const Vec3> Placement::face_nodes(Index slot, int q) const {
-  const std::vector<Index>& offset = face_node_offset_[sz(q)];
-  return {face_nodes_[sz(q)].data() + offset[at(slot)],
+  const std::vector<Index>& offset = face_node_offset_[at(q)];
+  return {face_nodes_[at(q)].data() + offset[at(slot)],
           at(offset[at(slot) + 1] - offset[at(slot)])};
 }
 std::span<const Vec3> Placement::face_displacement(Index slot, int q) const {
-  const std::vector<Index>& offset = face_displacement_offset_[sz(q)];
-  return {face_displacement_[sz(q)].data() + offset[at(slot)],
+  const std::vector<Index>& offset = face_displacement_offset_[at(q)];
+  return {face_displacement_[at(q)].data() + offset[at(slot)],
           at(offset[at(slot) + 1] - offset[at(slot)])};
 }
 
@@ -211,21 +211,21 @@ void Placement::place_edge(Projector& projector, Index slot) {
 
   std::array<Projection, k_orders> on_curve;
   for (int q = 2; q <= max_order_; ++q) {
-    const std::span<Vec3> nodes{edge_nodes_[sz(q)].data() + at(slot) * sz(q - 1), sz(q - 1)};
-    const std::span<Vec3> moved{edge_displacement_[sz(q)].data() + at(slot) * sz(q + 1), sz(q + 1)};
+    const std::span<Vec3> nodes{edge_nodes_[at(q)].data() + at(slot) * at(q - 1), at(q - 1)};
+    const std::span<Vec3> moved{edge_displacement_[at(q)].data() + at(slot) * at(q + 1), at(q + 1)};
     if (stretch) {
       std::array<double, k_orders> fraction{};
-      for (int i = 1; i < q; ++i) fraction[sz(i - 1)] = static_cast<double>(i) / q;
+      for (int i = 1; i < q; ++i) fraction[at(i - 1)] = static_cast<double>(i) / q;
       projector.divide_curve(curve.tag, (*stretch)[0], (*stretch)[1],
-                             std::span(fraction.data(), sz(q - 1)),
-                             std::span(on_curve.data(), sz(q - 1)));
+                             std::span(fraction.data(), at(q - 1)),
+                             std::span(on_curve.data(), at(q - 1)));
     }
     for (int i = 1; i < q; ++i) {
       const double s = static_cast<double>(i) / q;
       const Vec3 straight = (1.0 - s) * a + s * b;
       Vec3 x = straight;
       if (stretch) {
-        x = on_curve[sz(i - 1)].point;
+        x = on_curve[at(i - 1)].point;
       } else {
         Vec3 direction = (1.0 - s) * corner_a->normal + s * corner_b->normal;
         if (plane) direction -= direction.dot(plane->normal) * plane->normal;
@@ -235,8 +235,8 @@ void Placement::place_edge(Projector& projector, Index slot) {
         if (plane) x -= (x - plane->origin).dot(plane->normal) * plane->normal;
         if (!is_placed) edge_unplaced_[at(slot)] = 1;
       }
-      nodes[sz(i - 1)] = x;
-      moved[sz(i)] = x - straight;
+      nodes[at(i - 1)] = x;
+      moved[at(i)] = x - straight;
     }
   }
 }
@@ -252,12 +252,12 @@ void Placement::place_faces() {
 void Placement::copy_edges_to_face(Index slot, int q, std::span<Vec3> moved) const {
   const Index f = wall_.faces[at(slot)];
   const LatticeMap& map = lattice_map(topology_.face_shape[at(f)], q);
-  for (std::size_t i = 0; i < sz(topology_.corners_of_face(f)); ++i) {
+  for (std::size_t i = 0; i < at(topology_.corners_of_face(f)); ++i) {
     const Index e = topology_.face2edge[at(f)][i];
     const std::span<const Vec3> edge = edge_displacement(wall_.edge_slot[at(e)], q);
     const bool reversed = topology_.edge2vertex[at(e)][0] != topology_.face2vertex[at(f)][i];
     for (std::size_t k = 0; k < map.edge[i].size(); ++k) {
-      moved[sz(map.edge[i][k])] = edge[reversed ? edge.size() - 1 - k : k];
+      moved[at(map.edge[i][k])] = edge[reversed ? edge.size() - 1 - k : k];
     }
   }
 }
@@ -267,8 +267,8 @@ void Placement::set_edge(Index slot, int q, std::span<const Vec3> nodes) {
   for (int i = 1; i < q; ++i) {
     const double s = static_cast<double>(i) / q;
     const Vec3 straight = (1.0 - s) * mesh_.vertices[at(v[0])] + s * mesh_.vertices[at(v[1])];
-    edge_nodes_[sz(q)][at(slot) * sz(q - 1) + sz(i - 1)] = nodes[sz(i - 1)];
-    edge_displacement_[sz(q)][at(slot) * sz(q + 1) + sz(i)] = nodes[sz(i - 1)] - straight;
+    edge_nodes_[at(q)][at(slot) * at(q - 1) + at(i - 1)] = nodes[at(i - 1)];
+    edge_displacement_[at(q)][at(slot) * at(q + 1) + at(i)] = nodes[at(i - 1)] - straight;
   }
 }
 
@@ -277,20 +277,20 @@ void Placement::set_face(Index slot, int q, std::span<const Vec3> nodes) {
   const Shape shape = topology_.face_shape[at(f)];
   const Points straight = straight_face_nodes(mesh_, topology_, f, q);
   const std::span<Vec3> moved{
-      face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
+      face_displacement_[at(q)].data() + face_displacement_offset_[at(q)][at(slot)],
       straight.size()};
   copy_edges_to_face(slot, q, moved);
   const std::span<const int> inner = interior_nodes(shape, q);
   for (std::size_t k = 0; k < inner.size(); ++k) {
-    face_nodes_[sz(q)][at(face_node_offset_[sz(q)][at(slot)]) + k] = nodes[k];
-    moved[sz(inner[k])] = nodes[k] - straight[sz(inner[k])];
+    face_nodes_[at(q)][at(face_node_offset_[at(q)][at(slot)]) + k] = nodes[k];
+    moved[at(inner[k])] = nodes[k] - straight[at(inner[k])];
   }
 }
 
 void Placement::place_face(Projector& projector, Index slot) {
   const Index f = wall_.faces[at(slot)];
   const Shape shape = topology_.face_shape[at(f)];
-  const std::size_t n = sz(topology_.corners_of_face(f));
+  const std::size_t n = at(topology_.corners_of_face(f));
   const Index patch = association_.face2patch[at(f)];
   std::array<Vec3, 4> corner;
   std::array<const WallCorner*, 4> wall_corner{};
@@ -308,23 +308,23 @@ void Placement::place_face(Projector& projector, Index slot) {
   for (int q = 2; q <= max_order_; ++q) {
     const Points straight = straight_face_nodes(mesh_, topology_, f, q);
     const std::span<Vec3> moved{
-        face_displacement_[sz(q)].data() + face_displacement_offset_[sz(q)][at(slot)],
-        sz(node_count(shape, q))};
-    const std::span<Vec3> nodes{face_nodes_[sz(q)].data() + face_node_offset_[sz(q)][at(slot)],
+        face_displacement_[at(q)].data() + face_displacement_offset_[at(q)][at(slot)],
+        at(node_count(shape, q))};
+    const std::span<Vec3> nodes{face_nodes_[at(q)].data() + face_node_offset_[at(q)][at(slot)],
                                 interior_nodes(shape, q).size()};
     copy_edges_to_face(slot, q, moved);
     slide = slid_inwards(shape, q, std::span(normal.data(), n), slide, moved);
     std::size_t k = 0;
     for (int node : interior_nodes(shape, q)) {
       const Vec3 direction =
-          direction_at(shape, std::span(normal.data(), n), lattice_xi(shape, q)[sz(node)]);
+          direction_at(shape, std::span(normal.data(), n), lattice_xi(shape, q)[at(node)]);
       bool is_placed = false;
-      const Vec3 start = straight[sz(node)] + slide[sz(node)];
+      const Vec3 start = straight[at(node)] + slide[at(node)];
       const Vec3 x = onto_patch(projector, patch, start, direction, k_reach * longest,
                                 wall_corner[0], is_placed);
       if (!is_placed) face_unplaced_[at(slot)] = 1;
       nodes[k++] = x;
-      moved[sz(node)] = x - straight[sz(node)];
+      moved[at(node)] = x - straight[at(node)];
     }
   }
 }

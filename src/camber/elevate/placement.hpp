@@ -37,6 +37,9 @@ class Placement {
   /// there).
   [[nodiscard]] std::span<const Vec3> edge_displacement(Index slot, int q) const;
   [[nodiscard]] std::span<const Vec3> face_displacement(Index slot, int q) const;
+  /// The edge's displacement of order `cap` as a polynomial of order q >= cap, at the lattice nodes
+  /// of order q: what lower() makes of it. 1 is straight: zero.
+  [[nodiscard]] Points capped_edge_displacement(Index slot, int cap, int q) const;
 
   /// Replaces the own nodes of an edge or face at order q (they must lie on the CAD). After edges
   /// were changed the faces on them must be set too, or their displacement keeps the old edge.

@@ -49,14 +49,14 @@ Entity face_entity(Shape shape, int order, const std::array<Index, 4>& corners,
   entity.key = n == 4 ? corner_key(corners)
                       : corner_key(std::array<Index, 3>{corners[0], corners[1], corners[2]});
   const std::vector<int> node = reorient(shape, order, frame_corner);
-  for (int inner : interior_nodes(shape, order)) entity.slots.push_back(slots[sz(node[sz(inner)])]);
+  for (int inner : interior_nodes(shape, order)) entity.slots.push_back(slots[at(node[at(inner)])]);
   return entity;
 }
 
 /// Edges and faces of one element that have nodes inside at this order.
 std::vector<Entity> entities_of(Shape shape, int order, std::span<const Index> nodes) {
   const LatticeMap& map = lattice_map(shape, order);
-  const auto corner = [&](int i) { return nodes[sz(map.corner[sz(i)])]; };
+  const auto corner = [&](int i) { return nodes[at(map.corner[at(i)])]; };
   std::vector<Entity> all;
   const std::span<const std::array<int, 2>> shape_edges = edges(shape);
   for (std::size_t e = 0; e < shape_edges.size(); ++e) {
@@ -103,14 +103,14 @@ class Elevator {
 
  private:
   void register_block(const ElementBlock& block) {
-    const auto stride = sz(node_count(block.shape, order_));
+    const auto stride = at(node_count(block.shape, order_));
     for (std::size_t i = 0; i < block.size(); ++i) {
       const std::span<const Index> nodes = std::span(block.nodes).subspan(i * stride, stride);
       for (const Entity& entity : entities_of(block.shape, order_, nodes)) {
         std::vector<Index> inner;
         Points positions;
         for (int slot : entity.slots) {
-          inner.push_back(nodes[sz(slot)]);
+          inner.push_back(nodes[at(slot)]);
           positions.push_back(out_.points[at(inner.back())]);
         }
         if (!find(entity.key, positions)) known_.emplace(entity.key, std::move(inner));
@@ -121,12 +121,12 @@ class Elevator {
   void take_corners(ElementBlock& block) {
     const std::vector<int>& corner = lattice_map(block.shape, block.order).corner;
     const std::vector<int>& place = lattice_map(block.shape, 1).corner;
-    const auto stride = sz(node_count(block.shape, block.order));
+    const auto stride = at(node_count(block.shape, block.order));
     const std::size_t count = block.size();
     std::vector<Index> nodes(count * corner.size());
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t c = 0; c < corner.size(); ++c) {
-        nodes[i * corner.size() + sz(place[c])] = block.nodes[i * stride + sz(corner[c])];
+        nodes[i * corner.size() + at(place[c])] = block.nodes[i * stride + at(corner[c])];
       }
     }
     block.nodes = std::move(nodes);
@@ -138,8 +138,8 @@ class Elevator {
     const MatX& matrix = elevation_matrix(block.shape, p, order_);
     const std::vector<int>& from = lattice_map(block.shape, p).corner;
     const LatticeMap& map = lattice_map(block.shape, order_);
-    const auto stride = sz(node_count(block.shape, p));
-    const auto new_stride = sz(node_count(block.shape, order_));
+    const auto stride = at(node_count(block.shape, p));
+    const auto new_stride = at(node_count(block.shape, order_));
     const std::size_t count = block.size();
     const EntityKey owner{dimension(block.shape), block.entity};
     std::vector<Index> all(count * new_stride, k_none);
@@ -154,12 +154,12 @@ class Elevator {
                             out_.points[at(old[k])];
         }
       }
-      for (std::size_t c = 0; c < from.size(); ++c) nodes[sz(map.corner[c])] = old[sz(from[c])];
+      for (std::size_t c = 0; c < from.size(); ++c) nodes[at(map.corner[c])] = old[at(from[c])];
       for (const Entity& entity : entities_of(block.shape, order_, nodes)) {
         Points wanted;
-        for (int slot : entity.slots) wanted.push_back(positions[sz(slot)]);
+        for (int slot : entity.slots) wanted.push_back(positions[at(slot)]);
         const std::vector<Index>& inner = find_or_add(entity.key, wanted, owner);
-        for (std::size_t k = 0; k < inner.size(); ++k) nodes[sz(entity.slots[k])] = inner[k];
+        for (std::size_t k = 0; k < inner.size(); ++k) nodes[at(entity.slots[k])] = inner[k];
       }
       for (std::size_t k = 0; k < new_stride; ++k) {
         if (nodes[k] == k_none) nodes[k] = add_point(positions[k], owner);

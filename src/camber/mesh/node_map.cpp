@@ -51,9 +51,9 @@ class RowGatherer {
     const Shape shape = mesh_.cell_shape[at(c)];
     const int p = curved_.cell_order(c);
     const LatticeMap& map = lattice_map(shape, p);
-    Rows rows(sz(node_count(shape, p)));
+    Rows rows(at(node_count(shape, p)));
     const std::span<const Index> v = mesh_.cell(c);
-    for (std::size_t i = 0; i < v.size(); ++i) rows[sz(map.corner[i])] = {{v[i], 1.0}};
+    for (std::size_t i = 0; i < v.size(); ++i) rows[at(map.corner[i])] = {{v[i], 1.0}};
     if (p == 1) return rows;
     const std::span<const Index> cell_edges = topology_.edges_of_cell(c);
     for (std::size_t i = 0; i < cell_edges.size(); ++i) {
@@ -62,7 +62,7 @@ class RowGatherer {
           topology_.cell2edge_reversed[at(topology_.cell2edge_offset[at(c)]) + i] != 0;
       const std::vector<int>& slots = map.edge_interior[i];
       for (std::size_t k = 0; k < slots.size(); ++k) {
-        rows[sz(slots[k])] = line[reversed ? sz(p) - 1 - k : k + 1];
+        rows[at(slots[k])] = line[reversed ? at(p) - 1 - k : k + 1];
       }
     }
     const std::span<const Index> cell_faces = topology_.faces_of_cell(c);
@@ -74,7 +74,7 @@ class RowGatherer {
       const Shape face_shape = topology_.face_shape[at(f)];
       const std::span<const int> frame_node = face_view_nodes(face_shape, view, p);
       for (int inner : interior_nodes(face_shape, p)) {
-        rows[sz(map.face[i][sz(inner)])] = surface[sz(frame_node[sz(inner)])];
+        rows[at(map.face[i][at(inner)])] = surface[at(frame_node[at(inner)])];
       }
     }
     own(rows, map.interior, curved_.first_cell_node(c));
@@ -85,13 +85,13 @@ class RowGatherer {
   void own(Rows& rows, const std::vector<int>& slots, Index first) const {
     const Index column = static_cast<Index>(mesh_.vertices.size()) + first;
     for (std::size_t i = 0; i < slots.size(); ++i) {
-      rows[sz(slots[i])] = {{column + static_cast<Index>(i), 1.0}};
+      rows[at(slots[i])] = {{column + static_cast<Index>(i), 1.0}};
     }
   }
 
   [[nodiscard]] Rows edge(Index e, int q) const {
     const int r = curved_.edge_order(e);
-    Rows rows(sz(r) + 1);
+    Rows rows(at(r) + 1);
     rows.front() = {{topology_.edge2vertex[at(e)][0], 1.0}};
     rows.back() = {{topology_.edge2vertex[at(e)][1], 1.0}};
     std::vector<int> inner;
@@ -104,16 +104,16 @@ class RowGatherer {
     const Shape shape = topology_.face_shape[at(f)];
     const int r = curved_.face_order(f);
     const LatticeMap& map = lattice_map(shape, r);
-    Rows rows(sz(node_count(shape, r)));
+    Rows rows(at(node_count(shape, r)));
     for (int i = 0; i < topology_.corners_of_face(f); ++i) {
-      const Index v = topology_.face2vertex[at(f)][sz(i)];
-      rows[sz(map.corner[sz(i)])] = {{v, 1.0}};
-      const Index e = topology_.face2edge[at(f)][sz(i)];
+      const Index v = topology_.face2vertex[at(f)][at(i)];
+      rows[at(map.corner[at(i)])] = {{v, 1.0}};
+      const Index e = topology_.face2edge[at(f)][at(i)];
       const Rows line = edge(e, r);
       const bool reversed = topology_.edge2vertex[at(e)][0] != v;
-      const std::vector<int>& slots = map.edge_interior[sz(i)];
+      const std::vector<int>& slots = map.edge_interior[at(i)];
       for (std::size_t k = 0; k < slots.size(); ++k) {
-        rows[sz(slots[k])] = line[reversed ? sz(r) - 1 - k : k + 1];
+        rows[at(slots[k])] = line[reversed ? at(r) - 1 - k : k + 1];
       }
     }
     own(rows, map.interior, curved_.first_face_node(f));

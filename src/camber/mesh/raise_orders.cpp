@@ -50,7 +50,7 @@ CurvedMesh raise_orders(const CurvedMesh& curved, std::vector<std::uint8_t> cell
       const int q = raised.face_order(f);
       curved.face_lattice(f, q, all);
       const std::span<const int> inner = interior_nodes(topology.face_shape[i], q);
-      for (std::size_t k = 0; k < own.size(); ++k) own[k] = all[sz(inner[k])];
+      for (std::size_t k = 0; k < own.size(); ++k) own[k] = all[at(inner[k])];
     }
   });
   parallel_for(
@@ -64,7 +64,7 @@ CurvedMesh raise_orders(const CurvedMesh& curved, std::vector<std::uint8_t> cell
           const int q = raised.cell_order(c);
           curved.gather(c, q, all);
           const std::vector<int>& inner = lattice_map(curved.linear().cell_shape[i], q).interior;
-          for (std::size_t k = 0; k < own.size(); ++k) own[k] = all[sz(inner[k])];
+          for (std::size_t k = 0; k < own.size(); ++k) own[k] = all[at(inner[k])];
         }
       });
   return raised;
@@ -81,7 +81,7 @@ void see_face(const CurvedMesh& curved, Index c, std::size_t local, int q, const
   const Shape shape = topology.face_shape[at(topology.cell2face[place])];
   const std::span<const int> frame_node = face_view_nodes(shape, topology.cell2face_view[place], q);
   seen.resize(slots.size());
-  for (std::size_t n = 0; n < slots.size(); ++n) seen[sz(frame_node[n])] = nodes[sz(slots[n])];
+  for (std::size_t n = 0; n < slots.size(); ++n) seen[at(frame_node[n])] = nodes[at(slots[n])];
 }
 
 }  // namespace

@@ -24,11 +24,11 @@ Points at_order(Shape shape, int r, int q, std::span<const Vec3> nodes) {
 void set_edge(const CurvedMesh& curved, const Wall& wall, Index slot, Placement& placement) {
   const Index e = wall.edges[at(slot)];
   const int r = curved.edge_order(e);
-  Points nodes(sz(r) + 1);
+  Points nodes(at(r) + 1);
   curved.edge_lattice(e, r, nodes);
   for (int q = 2; q <= placement.max_order(); ++q) {
     const Points all = at_order(Shape::line, r, q, nodes);
-    placement.set_edge(slot, q, std::span(all).subspan(1, sz(q) - 1));
+    placement.set_edge(slot, q, std::span(all).subspan(1, at(q) - 1));
   }
 }
 
@@ -36,12 +36,12 @@ void set_face(const CurvedMesh& curved, const Wall& wall, Index slot, Placement&
   const Index f = wall.faces[at(slot)];
   const Shape shape = curved.topology().face_shape[at(f)];
   const int r = curved.face_order(f);
-  Points nodes(sz(node_count(shape, r))), own;
+  Points nodes(at(node_count(shape, r))), own;
   curved.face_lattice(f, r, nodes);
   for (int q = 2; q <= placement.max_order(); ++q) {
     const Points all = at_order(shape, r, q, nodes);
     own.clear();
-    for (int n : interior_nodes(shape, q)) own.push_back(all[sz(n)]);
+    for (int n : interior_nodes(shape, q)) own.push_back(all[at(n)]);
     placement.set_face(slot, q, own);
   }
 }
@@ -65,7 +65,7 @@ Changes find_changes(const CurvedMesh& before, const CurvedMesh& after, const Wa
     const Index f = wall.faces[s];
     bool differs = !std::ranges::equal(before.face_nodes(f), after.face_nodes(f));
     for (int i = 0; i < topology.corners_of_face(f); ++i) {
-      differs |= is_changed[at(wall.edge_slot[at(topology.face2edge[at(f)][sz(i)])])] != 0;
+      differs |= is_changed[at(wall.edge_slot[at(topology.face2edge[at(f)][at(i)])])] != 0;
     }
     if (differs) changes.faces.push_back(static_cast<Index>(s));
   }

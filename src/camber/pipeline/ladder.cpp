@@ -183,9 +183,10 @@ LadderResult climb(CurvedMesh& curved, const Association& association, const Geo
     }
     make_sorted_set(changed);
     if (changed.empty()) {  // nothing left to lower: what the solve leaves is scaled back
-      if (relax(Keep::fewer_uncertified)) break;
-      bad.insert(bad.end(), to_lower.begin(), to_lower.end());
-      make_sorted_set(bad);
+      if (!relax(Keep::fewer_uncertified)) {
+        bad.insert(bad.end(), to_lower.begin(), to_lower.end());
+        make_sorted_set(bad);
+      }
       break;
     }
     for (const auto& [slot, cap] : caps) result.lowered_faces.push_back(slot);

@@ -13,14 +13,15 @@ struct MemoryQuestion {
 };
 
 /// Peak memory of reading, curving and writing a linear mesh [bytes]:
-///   47 MB + 750 n_cells + 200 m (n_hex + n_prism / 2 + n_pyramid / 3 + n_tet / 6).
+///   47 MB + 500 n_cells + 185 m (n_hex + n_prism / 2 + n_pyramid / 3 + n_tet / 6).
 /// m is the number of nodes of one more hex in a large mesh, p^3 at order p; other shapes are
 /// shares of a hex. How many cells will be curved and how far is known only afterwards: above order
 /// 2, m is the geometric mean of 2^3 and p^3 for the highest order p, at least that of the lowest
 /// order; p^3 if all cells are written at p.
-/// Source: measured, the bundled cases and bench/generate with 17000 to 1 million cells at orders 2
-/// to 4: between 0.9 and 2.7 of the peak. A mesh with order 4 throughout may take three times as
-/// much as said. Large CAD files are not counted. Never throws.
+/// Source: measured, docs/performance.md; seven meshes of 6000 to 100000 cells at orders 2 to 4
+/// took between 0.85 and 1.1 of what is said, one of 20 million with a quarter of them curved far
+/// less. A mesh with order 4 throughout may take three times as much as said. Large CAD files are
+/// not counted. Never throws.
 [[nodiscard]] std::size_t estimated_memory(const MeshData& mesh, const MemoryQuestion& question);
 
 /// Memory that programs may take without swapping, "MemAvailable" of Linux [bytes]; 0 if the file

@@ -99,7 +99,7 @@ struct Element {
 MatX edge_vectors(const Simplex& s, const Points& x) {
   const int d = s[3] < 0 ? 2 : 3;
   MatX A(3, d);
-  for (int c = 0; c < d; ++c) A.col(c) = x[sz(s[sz(c) + 1])] - x[sz(s[0])];
+  for (int c = 0; c < d; ++c) A.col(c) = x[at(s[at(c) + 1])] - x[at(s[0])];
   return A;
 }
 
@@ -146,16 +146,16 @@ Sensitive numerator(const Element& element, const Simplex& s, int level) {
       for (int k = 0; i + j + k <= parts && (k == 0 || corners == 4); ++k) {
         const std::array<int, 4> weight{parts - i - j - k, i, j, k};
         Vec3 xi = Vec3::Zero();
-        for (std::size_t c = 0; c < sz(corners); ++c) {
-          xi += weight[c] * lattice_xi(element.shape, element.p)[sz(s[c])] / parts;
+        for (std::size_t c = 0; c < at(corners); ++c) {
+          xi += weight[c] * lattice_xi(element.shape, element.p)[at(s[c])] / parts;
         }
         const MatX A = jacobian(element.shape, element.p, element.x, xi).leftCols(corners - 1);
         const MatX W = jacobian(element.shape, element.p, element.X, xi).leftCols(corners - 1);
         Sensitive point;
         point.value = ratio(A, W, slope);
         lagrange_gradients(element.shape, element.p, xi, dN);
-        for (std::size_t c = 0; c < sz(corners); ++c) {
-          point.slope[c] = slope * dN[sz(s[c])].head(corners - 1);
+        for (std::size_t c = 0; c < at(corners); ++c) {
+          point.slope[c] = slope * dN[at(s[c])].head(corners - 1);
         }
         if (point.value > 1.0) point = Sensitive{1.0, Sensitive{}.slope};
         points.push_back(point);
@@ -217,10 +217,10 @@ Sensitive sub_cost(const Element& element, const Simplex& s, int level) {
 
 double inscribed_radius(const Simplex& s, const Points& X) {
   const auto area = [&](std::size_t a, std::size_t b, std::size_t c) {
-    return 0.5 * (X[sz(s[b])] - X[sz(s[a])]).cross(X[sz(s[c])] - X[sz(s[a])]).norm();
+    return 0.5 * (X[at(s[b])] - X[at(s[a])]).cross(X[at(s[c])] - X[at(s[a])]).norm();
   };
   const auto length = [&](std::size_t a, std::size_t b) {
-    return (X[sz(s[a])] - X[sz(s[b])]).norm();
+    return (X[at(s[a])] - X[at(s[b])]).norm();
   };
   if (s[3] < 0) return 2.0 * area(0, 1, 2) / (length(0, 1) + length(1, 2) + length(2, 0));
   const double volume = std::abs(Mat3(edge_vectors(s, X)).determinant()) / 6.0;
@@ -241,7 +241,7 @@ Vec3 step(const NaiveMarching& options, std::size_t elements,
     for (const Simplex& s : find_simplices(element.shape, element.p)) {
       std::array<double, 4> weight{};
       for (std::size_t c = 0; c < 4 && s[c] >= 0; ++c) {
-        weight[c] = probe.x[sz(s[c])].x() - element.x[sz(s[c])].x();
+        weight[c] = probe.x[at(s[c])].x() - element.x[at(s[c])].x();
         if (std::abs(weight[c]) < 1e-12) weight[c] = 0.0;  // round-off of the difference
       }
       if (weight == std::array<double, 4>{}) continue;
@@ -308,7 +308,7 @@ Points naive_surface_step(const CurvedMesh& curved, const NaiveMarching& options
   return all_steps(curved, options, faces.size(), [&](const CurvedMesh& mesh, std::size_t e) {
     const Shape shape = mesh.topology().face_shape[at(faces[e])];
     Element element{shape, mesh.face_order(faces[e]), {}, {}};
-    element.x.resize(sz(node_count(shape, element.p)));
+    element.x.resize(at(node_count(shape, element.p)));
     mesh.face_lattice(faces[e], element.p, element.x);
     element.X = straight_face_nodes(mesh.linear(), mesh.topology(), faces[e], element.p);
     return element;

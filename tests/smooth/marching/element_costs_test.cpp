@@ -11,7 +11,7 @@
 namespace camber {
 namespace {
 
-std::size_t sz(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// An element with bent straight copy (corners moved) and shaken nodes.
 struct Sample {
@@ -87,14 +87,14 @@ TEST_P(ElementCosts, HaveTheDerivativesOfCentralDifferencesByTheirCorners) {
       for (int k = 0; k <= d; ++k) {
         for (int r = 0; r < 3; ++r) {
           Sample more = sample, less = sample;
-          more.x[sz(simplices[i][sz(k)])][r] += h;
-          less.x[sz(simplices[i][sz(k)])][r] -= h;
+          more.x[at(simplices[i][at(k)])][r] += h;
+          less.x[at(simplices[i][at(k)])][r] -= h;
           const double up = costs_of<d>(more, level)[i].cost;
           const double down = costs_of<d>(less, level)[i].cost;
           const double here = costs[i].cost;
           // The cap at 1 and a change of the lowest point are corners of the function.
           if (std::abs(up - 2.0 * here + down) > 1e-9) continue;
-          EXPECT_NEAR(costs[i].slope[sz(k)][r], (up - down) / (2.0 * h), 2e-6 * p * p);
+          EXPECT_NEAR(costs[i].slope[at(k)][r], (up - down) / (2.0 * h), 2e-6 * p * p);
         }
       }
     }

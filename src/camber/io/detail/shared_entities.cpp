@@ -62,11 +62,11 @@ void SharedEntities::take(const MeshData& mesh, const ElementBlock& block,
                           const std::vector<Index>& number) {
   const LatticeMap& map = lattice_map(block.shape, order_);
   const bool is_cell = dimension(block.shape) == 3;
-  const auto per = sz(nodes_per_element(block.shape, order_));
+  const auto per = at(nodes_per_element(block.shape, order_));
   for (std::size_t e = 0; e < block.nodes.size(); e += per) {
-    const auto node = [&](int n) { return block.nodes[e + sz(n)]; };
+    const auto node = [&](int n) { return block.nodes[e + at(n)]; };
     const auto point = [&](int n) { return mesh.points[at(node(n))]; };
-    const auto vertex = [&](int corner) { return number[at(node(map.corner[sz(corner)]))]; };
+    const auto vertex = [&](int corner) { return number[at(node(map.corner[at(corner)]))]; };
     Box box;
     for (std::size_t n = 0; n < per; ++n) box.add(point(static_cast<int>(n)));
     const double far = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
@@ -85,7 +85,7 @@ void SharedEntities::take(const MeshData& mesh, const ElementBlock& block,
       }
       const std::vector<int> node_of = reorient(local_faces[f].shape, order_, frame_of(v));
       Points points;
-      for (const int n : node_of) points.push_back(point(map.face[f][sz(n)]));
+      for (const int n : node_of) points.push_back(point(map.face[f][at(n)]));
       take_face(local_faces[f].shape, v, points, is_cell);
     }
   }
@@ -124,7 +124,7 @@ void SharedEntities::take_face(Shape shape, const std::vector<Index>& v, const P
   face.shape = shape;
   face.points = points;
   const std::vector<int> frame = frame_of(v);
-  for (std::size_t i = 0; i < v.size(); ++i) face.v[i] = v[sz(frame[i])];
+  for (std::size_t i = 0; i < v.size(); ++i) face.v[i] = v[at(frame[i])];
   for (std::size_t i = 0; i < v.size(); ++i) {
     face.edges[i] = edge(face.v[i], face.v[(i + 1) % v.size()]);
   }

@@ -44,11 +44,11 @@ class FaceMatcher {
   void match_cells() {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const std::span<const LocalFace> local = faces(cells_.shape(i));
-      for (int f = 0; sz(f) < local.size(); ++f) {
+      for (int f = 0; at(f) < local.size(); ++f) {
         const View view{i, f};
         const auto [place, is_new] = number_.try_emplace(key(view), matched_.size());
         if (is_new) {
-          matched_.push_back({local[sz(f)].shape, view, {}, {}, 1, false});
+          matched_.push_back({local[at(f)].shape, view, {}, {}, 1, false});
           continue;
         }
         MatchedFace& face = matched_[place->second];
@@ -138,19 +138,19 @@ class FaceMatcher {
       return;
     }
     const std::vector<int>& slots =
-        lattice_map(cells_.shape(view.element), order(view)).face[sz(view.local)];
+        lattice_map(cells_.shape(view.element), order(view)).face[at(view.local)];
     nodes.resize(slots.size());
-    for (std::size_t n = 0; n < slots.size(); ++n) nodes[n] = all[sz(slots[n])];
+    for (std::size_t n = 0; n < slots.size(); ++n) nodes[n] = all[at(slots[n])];
   }
 
   [[nodiscard]] std::array<Index, 4> corner_nodes(const View& view) const {
     const std::span<const Index> all = list(view).nodes(view.element);
     const Shape shape = list(view).shape(view.element);
     const std::vector<int>& corner = lattice_map(shape, order(view)).corner;
-    const LocalFace& face = faces(shape)[view.local < 0 ? 0 : sz(view.local)];
+    const LocalFace& face = faces(shape)[view.local < 0 ? 0 : at(view.local)];
     std::array<Index, 4> v{k_none, k_none, k_none, k_none};
     for (std::size_t i = 0; i < 4; ++i) {
-      if (face.corners[i] >= 0) v[i] = all[sz(corner[sz(face.corners[i])])];
+      if (face.corners[i] >= 0) v[i] = all[at(corner[at(face.corners[i])])];
     }
     return v;
   }
@@ -183,7 +183,7 @@ class FaceMatcher {
     std::size_t view = 0;
     const auto fits = [&] {
       for (std::size_t i = 0; i < n; ++i) {
-        if (corners_a[i] != corners_b[sz(views[view][i])]) return false;
+        if (corners_a[i] != corners_b[at(views[view][i])]) return false;
       }
       return true;
     };
@@ -195,7 +195,7 @@ class FaceMatcher {
     face_nodes(b, raw_b);
     const std::span<const int> place = face_view_nodes(shape, static_cast<int>(view), order(b));
     std::vector<Index> nodes_b(raw_b.size());
-    for (std::size_t k = 0; k < nodes_b.size(); ++k) nodes_b[k] = raw_b[sz(place[k])];
+    for (std::size_t k = 0; k < nodes_b.size(); ++k) nodes_b[k] = raw_b[at(place[k])];
     if (nodes_a == nodes_b) return 0.0;
 
     const int q = std::max(order(a), order(b));

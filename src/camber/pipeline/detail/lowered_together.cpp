@@ -1,4 +1,3 @@
-#include <camber/basis/lagrange.hpp>
 #include <camber/pipeline/detail/lowered_together.hpp>
 
 #include <algorithm>
@@ -14,17 +13,10 @@ constexpr double k_fold = 4.0;
 double change(const Placement& placement, Index edge, int cap) {
   const int q = placement.max_order();
   const std::span<const Vec3> now = placement.edge_displacement(edge, q);
+  const Points then = placement.capped_edge_displacement(edge, cap, q);
   double largest = 0.0;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    Vec3 then = Vec3::Zero();
-    if (cap > 1) {
-      const std::span<const Vec3> low = placement.edge_displacement(edge, cap);
-      const MatX& elevate = elevation_matrix(Shape::line, cap, q);
-      for (std::size_t k = 0; k < low.size(); ++k) {
-        then += elevate(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) * low[k];
-      }
-    }
-    largest = std::max(largest, (now[i] - then).norm());
+    largest = std::max(largest, (now[i] - then[i]).norm());
   }
   return largest;
 }
@@ -36,7 +28,7 @@ double height_over(const LinearMesh& mesh, const Topology& topology, Index f, In
   const Vec3 along = (mesh.vertices[at(v[1])] - a).normalized();
   double height = 0.0;
   for (int i = 0; i < topology.corners_of_face(f); ++i) {
-    const Vec3 r = mesh.vertices[at(topology.face2vertex[at(f)][sz(i)])] - a;
+    const Vec3 r = mesh.vertices[at(topology.face2vertex[at(f)][at(i)])] - a;
     height = std::max(height, (r - r.dot(along) * along).norm());
   }
   return height;
@@ -60,7 +52,7 @@ std::vector<std::pair<Index, int>> lowered_together(
     if (lowest[at(slot)] < cap) continue;
     const Index f = wall.faces[at(slot)];
     for (int i = 0; i < topology.corners_of_face(f); ++i) {
-      const Index e = topology.face2edge[at(f)][sz(i)];
+      const Index e = topology.face2edge[at(f)][at(i)];
       if (cap > 1 && association.edge2curve[at(e)].dim == 1) continue;
       const Index edge = wall.edge_slot[at(e)];
       for (Index other : wall.edge_faces[at(edge)]) {
@@ -85,7 +77,7 @@ std::vector<Index> with_wall_ring(const LinearMesh& mesh, const Topology& topolo
   const auto corners = [&](Index slot) {
     const Index f = wall.faces[at(slot)];
     return std::span<const Index>(topology.face2vertex[at(f)].data(),
-                                  sz(topology.corners_of_face(f)));
+                                  at(topology.corners_of_face(f)));
   };
   for (Index slot : slots) {
     for (Index v : corners(slot)) is_near[at(v)] = 1;

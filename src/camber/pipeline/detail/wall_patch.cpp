@@ -6,8 +6,6 @@
 #include <utility>
 
 namespace camber::detail {
-namespace {}  // namespace
-
 WallPatch::WallPatch(const LinearMesh& mesh, const Topology& topology,
                      const Association& association, const GeometryModel& model, const Wall& wall,
                      const Placement& placement, std::vector<Index> faces, int order)
@@ -61,29 +59,29 @@ void WallPatch::add_face(Index slot, const Placement& placement) {
   face.straight = straight_face_nodes(mesh_, topology_, f, q);
   face.nodes.assign(face.straight.size(), k_none);
   for (int i = 0; i < corner_total(slot); ++i) {
-    const Vec3& out = wall_.corners[at(wall_.face_corners[at(slot)][sz(i)])].normal;
-    face.corner_normal[sz(i)] = walks_inwards(slot) ? Vec3(-out) : out;
+    const Vec3& out = wall_.corners[at(wall_.face_corners[at(slot)][at(i)])].normal;
+    face.corner_normal[at(i)] = walks_inwards(slot) ? Vec3(-out) : out;
     const Index v = vertex(slot, i);
     if (!vertex_node_.contains(v)) vertex_node_[v] = add_node(mesh_.vertices[at(v)], false, slot);
-    face.nodes[sz(map.corner[sz(i)])] = vertex_node_[v];
+    face.nodes[at(map.corner[at(i)])] = vertex_node_[v];
   }
   for (int i = 0; i < corner_total(slot); ++i) {
-    const Index edge = wall_.edge_slot[at(topology_.face2edge[at(f)][sz(i)])];
+    const Index edge = wall_.edge_slot[at(topology_.face2edge[at(f)][at(i)])];
     if (!edge_node_.contains(edge)) {
       edge_node_[edge] = static_cast<Index>(patch_.nodes.size());
       for (const Vec3& x : placement.edge_nodes(edge, q)) add_node(x, may_slide(edge), slot);
     }
     const bool reversed = topology_.edge2vertex[at(wall_.edges[at(edge)])][0] != vertex(slot, i);
-    const std::vector<int>& slots = map.edge_interior[sz(i)];
+    const std::vector<int>& slots = map.edge_interior[at(i)];
     for (std::size_t k = 0; k < slots.size(); ++k) {
-      face.nodes[sz(slots[k])] =
+      face.nodes[at(slots[k])] =
           edge_node_[edge] + static_cast<Index>(reversed ? slots.size() - 1 - k : k);
     }
   }
   face_node_.push_back(static_cast<Index>(patch_.nodes.size()));
   const std::span<const Vec3> inner = placement.face_nodes(slot, q);
   for (std::size_t k = 0; k < inner.size(); ++k) {
-    face.nodes[sz(interior_nodes(shape, q)[k])] = add_node(inner[k], true, slot);
+    face.nodes[at(interior_nodes(shape, q)[k])] = add_node(inner[k], true, slot);
   }
   patch_.faces.push_back(std::move(face));
 }
@@ -148,7 +146,7 @@ void WallPatch::store_sampled(Placement& placement, int order) {
     Points all, nodes;
     for (Index n : patch_.faces[i].nodes) all.push_back(patch_.nodes[at(n)]);
     for (int n : interior_nodes(shape, order)) {
-      const Vec3 x = evaluate(shape, patch_.order, all, lattice_xi(shape, order)[sz(n)]);
+      const Vec3 x = evaluate(shape, patch_.order, all, lattice_xi(shape, order)[at(n)]);
       nodes.push_back(foot(faces_[i], x).point);
     }
     placement.set_face(faces_[i], order, nodes);

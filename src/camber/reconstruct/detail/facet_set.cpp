@@ -109,7 +109,7 @@ class PatchNodes {
       const Index a = corners[i], b = corners[(i + 1) % corners.size()];
       const EdgeNodes& edge = sharp_[at(features_.facet2edge[at(f)][i])];
       for (std::size_t k = 0; k < map.edge[i].size(); ++k) {
-        const std::size_t n = sz(map.edge[i][k]);
+        const std::size_t n = at(map.edge[i][k]);
         const Vec3 wanted =
             edge.curve ? edge.node(a < b ? k : k_patch_order - k) : on_edge(f, i, a, b, k);
         correction[n] = wanted - x[n];
@@ -117,10 +117,10 @@ class PatchNodes {
       }
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      correction[sz(map.edge[i].front())] = Vec3::Zero();
+      correction[at(map.edge[i].front())] = Vec3::Zero();
     }
     blend_face_interior(shape, k_patch_order, correction);
-    for (int n : interior_nodes(shape, k_patch_order)) x[sz(n)] += correction[sz(n)];
+    for (int n : interior_nodes(shape, k_patch_order)) x[at(n)] += correction[at(n)];
     return x;
   }
 

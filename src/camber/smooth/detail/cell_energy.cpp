@@ -83,8 +83,8 @@ CellEnergy::CellEnergy(const CurvedMesh& curved, const std::vector<Index>& cells
     by_kind[{mesh_.cell_shape[at(cells[i])], order_[i]}].push_back(i);
   }
   for (const auto& [kind, members] : by_kind) {
-    for (std::size_t first = 0; first < members.size(); first += sz(lanes_)) {
-      const std::size_t last = std::min(members.size(), first + sz(lanes_));
+    for (std::size_t first = 0; first < members.size(); first += at(lanes_)) {
+      const std::size_t last = std::min(members.size(), first + at(lanes_));
       batches_.push_back({&energy_plan(kind.first, kind.second),
                           {members.begin() + static_cast<std::ptrdiff_t>(first),
                            members.begin() + static_cast<std::ptrdiff_t>(last)}});
@@ -142,8 +142,8 @@ Vec3 CellEnergy::node(std::size_t row) const {
 
 void CellEnergy::evaluate_batch(const Batch& batch, EnergyKind kind, double delta) {
   const EnergyPlan& plan = *batch.plan;
-  const std::size_t lanes = batch.cells.size() == sz(lanes_) ? sz(lanes_) : 1;
-  const std::size_t n = sz(plan.nodes()), corners = plan.corner_nodes().size();
+  const std::size_t lanes = batch.cells.size() == at(lanes_) ? at(lanes_) : 1;
+  const std::size_t n = at(plan.nodes()), corners = plan.corner_nodes().size();
   thread_local std::vector<double> storage;
   // Room for nodes, slopes, corners and four results, on the boundary the widest vectors want.
   constexpr std::size_t k_line = 8;
@@ -170,7 +170,7 @@ void CellEnergy::evaluate_batch(const Batch& batch, EnergyKind kind, double delt
       for (std::size_t c = 0; c < corners; ++c) {
         const Vec3 p = mesh_.vertices[at(v[c])] - origin;
         for (std::size_t d = 0; d < 3; ++d) {
-          X[(d * corners + sz(linear[c])) * lanes + l] = p[static_cast<Eigen::Index>(d)];
+          X[(d * corners + at(linear[c])) * lanes + l] = p[static_cast<Eigen::Index>(d)];
         }
       }
       for (std::size_t k = 0; k < n; ++k) {
@@ -196,7 +196,7 @@ void CellEnergy::evaluate_batch(const Batch& batch, EnergyKind kind, double delt
 void CellEnergy::add_sample(std::size_t i, const Vec3& xi) {
   const Shape shape = mesh_.cell_shape[at(cells()[i])];
   const std::size_t n = map_.node_total(i);
-  std::vector<Vec3> dN(n), linear(sz(corner_count(shape)));
+  std::vector<Vec3> dN(n), linear(at(corner_count(shape)));
   lagrange_gradients(shape, order_[i], xi, dN);
   lagrange_gradients(shape, 1, xi, linear);
   Extra extra{i, MatX(static_cast<Eigen::Index>(n), 3), Mat3::Zero()};
@@ -204,7 +204,7 @@ void CellEnergy::add_sample(std::size_t i, const Vec3& xi) {
   Mat3 W = Mat3::Zero();
   const std::span<const Index> v = mesh_.cell(cells()[i]);
   for (std::size_t c = 0; c < v.size(); ++c) {
-    W += mesh_.vertices[at(v[c])] * linear[sz(lattice_map(shape, 1).corner[c])].transpose();
+    W += mesh_.vertices[at(v[c])] * linear[at(lattice_map(shape, 1).corner[c])].transpose();
   }
   extra.W_inverse = W.inverse();
   extras_.push_back(std::move(extra));
@@ -367,7 +367,7 @@ std::vector<MatX> CellEnergy::diagonal_blocks(const std::vector<std::vector<Inde
   };
   const auto add_lanes = [&](const EnergyPlan& plan, std::span<const std::size_t> own, Room& room) {
     const EnergyView view = plan.view();
-    const std::size_t n = sz(view.nodes), lanes = own.size(), corners = sz(view.corners);
+    const std::size_t n = at(view.nodes), lanes = own.size(), corners = at(view.corners);
     room.number.assign(n * n, -1);
     room.pairs.clear();
     struct Entry {
@@ -420,14 +420,14 @@ std::vector<MatX> CellEnergy::diagonal_blocks(const std::vector<std::vector<Inde
         .stiffness(view, corner, lattice_map(plan.shape(), 1).corner.data(), room.pairs.data(),
                    static_cast<int>(pair_count), slopes, sums);
     for (std::size_t l = 0; l < lanes; ++l) {
-      for (Part& part : parts[own[l]]) part.value *= sums[sz(part.pair) * lanes + l];
+      for (Part& part : parts[own[l]]) part.value *= sums[at(part.pair) * lanes + l];
     }
   };
   parallel_for(batches_.size(), k_batches_per_task, [&](std::size_t begin, std::size_t end) {
     Room room;
     for (std::size_t b = begin; b < end; ++b) {
       const std::span<const std::size_t> all = batches_[b].cells;
-      const std::size_t lanes = all.size() == sz(lanes_) ? all.size() : 1;
+      const std::size_t lanes = all.size() == at(lanes_) ? all.size() : 1;
       for (std::size_t i = 0; i < all.size(); i += lanes) {
         add_lanes(*batches_[b].plan, all.subspan(i, lanes), room);
       }

@@ -12,7 +12,7 @@ namespace {
 template <int d>
 SimplexCorners<double, d> corners_of(const SubSimplex& s, std::span<const Vec3> nodes) {
   SimplexCorners<double, d> x;
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] = nodes[sz(s[k])];
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = nodes[at(s[k])];
   return x;
 }
 
@@ -25,7 +25,7 @@ SimplexCorners<CornerDual<d>, d> variables(const SimplexCorners<double, d>& x) {
   SimplexCorners<CornerDual<d>, d> v;
   for (int k = 0; k <= d; ++k) {
     for (int r = 0; r < 3; ++r) {
-      v[sz(k)](r) = CornerDual<d>::variable(x[sz(k)](r), 3 * k + r);
+      v[at(k)](r) = CornerDual<d>::variable(x[at(k)](r), 3 * k + r);
     }
   }
   return v;
@@ -47,7 +47,7 @@ Survey make_survey(Shape shape, int p, int level) {
   const std::vector<int>&corner = lattice_map(shape, p).corner,
         &linear = lattice_map(shape, 1).corner;
   survey.corner_node.resize(corner.size());
-  for (std::size_t c = 0; c < corner.size(); ++c) survey.corner_node[sz(linear[c])] = corner[c];
+  for (std::size_t c = 0; c < corner.size(); ++c) survey.corner_node[at(linear[c])] = corner[c];
   const std::span<const LatticePoint> nodes = lattice(shape, p);
   const Shape simplex = dimension(shape) == 3 ? Shape::tetrahedron : Shape::triangle;
   for (const SubSimplex& s : sub_simplices(shape, p)) {
@@ -56,7 +56,7 @@ Survey make_survey(Shape shape, int p, int level) {
       const std::array<int, 4> weight{parts - a[0] - a[1] - a[2], a[0], a[1], a[2]};
       LatticePoint point{0, 0, 0};
       for (std::size_t k = 0; k < 4 && s[k] >= 0; ++k) {
-        for (std::size_t r = 0; r < 3; ++r) point[r] += weight[k] * nodes[sz(s[k])][r];
+        for (std::size_t r = 0; r < 3; ++r) point[r] += weight[k] * nodes[at(s[k])][r];
       }
       points.push_back(lattice_index(shape, q, point));
     }
@@ -73,7 +73,7 @@ const Survey& survey_of(Shape shape, int p, int level) {
   static std::array<std::array<std::array<Slot, k_max_level + 1>, k_max_tested_order + 1>,
                     k_shape_count>
       slots;
-  Slot& slot = slots[static_cast<std::size_t>(shape)][sz(p)][sz(level)];
+  Slot& slot = slots[static_cast<std::size_t>(shape)][at(p)][at(level)];
   std::call_once(slot.once, [&] {
     slot.survey = std::make_unique<const Survey>(make_survey(shape, p, level));
   });
@@ -91,12 +91,12 @@ std::vector<Jacobian<d>> jacobians(const Tabulation& table, std::span<const Vec3
   Eigen::Matrix<double, Eigen::Dynamic, 3> x(count, 3);
   for (Eigen::Index n = 0; n < count; ++n) {
     const std::size_t node =
-        choice ? sz((*choice)[static_cast<std::size_t>(n)]) : static_cast<std::size_t>(n);
+        choice ? at((*choice)[static_cast<std::size_t>(n)]) : static_cast<std::size_t>(n);
     x.row(n) = (nodes[node] - nodes[0]).transpose();  // close nodes keep their digits
   }
   std::vector<Jacobian<d>> J(static_cast<std::size_t>(table.values.rows()));
   for (int c = 0; c < d; ++c) {
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> column = table.gradient[sz(c)] * x;
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> column = table.gradient[at(c)] * x;
     for (std::size_t q = 0; q < J.size(); ++q) {
       J[q].col(c) = column.row(static_cast<Eigen::Index>(q)).transpose();
     }
@@ -133,7 +133,7 @@ PointRatio<d> point_ratio(const Jacobian<d>& J, const Jacobian<d>& W) {
   PointRatio<d> result;
   result.tau = tau.v;
   for (int c = 0; c < d; ++c) {
-    for (int r = 0; r < 3; ++r) result.slope(r, c) = tau.d[sz(3 * c + r)];
+    for (int r = 0; r < 3; ++r) result.slope(r, c) = tau.d[at(3 * c + r)];
   }
   return result;
 }
@@ -146,9 +146,9 @@ CornerDual<d> by_corners(const PointRatio<d>& point, const Survey& survey, int r
   for (int k = 0; k <= d; ++k) {
     Vec3 slope = Vec3::Zero();
     for (int c = 0; c < d; ++c) {
-      slope += survey.curved.gradient[sz(c)](row, s[sz(k)]) * point.slope.col(c);
+      slope += survey.curved.gradient[at(c)](row, s[at(k)]) * point.slope.col(c);
     }
-    for (int r = 0; r < 3; ++r) tau.d[sz(3 * k + r)] = slope(r);
+    for (int r = 0; r < 3; ++r) tau.d[at(3 * k + r)] = slope(r);
   }
   return tau;
 }
@@ -200,8 +200,8 @@ class Tetrahedron {
     CornerDual<3> result(f.v);
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) {
-        result.d[sz(3 * (c + 1) + r)] = by_A(r, c);
-        result.d[sz(r)] -= by_A(r, c);
+        result.d[at(3 * (c + 1) + r)] = by_A(r, c);
+        result.d[at(r)] -= by_A(r, c);
       }
     }
     return result;
@@ -216,7 +216,7 @@ SubCost<d> unpacked(const CornerDual<d>& cost) {
   SubCost<d> result;
   result.cost = cost.v;
   for (int k = 0; k <= d; ++k) {
-    result.slope[sz(k)] = Vec3(cost.d[sz(3 * k)], cost.d[sz(3 * k + 1)], cost.d[sz(3 * k + 2)]);
+    result.slope[at(k)] = Vec3(cost.d[at(3 * k)], cost.d[at(3 * k + 1)], cost.d[at(3 * k + 2)]);
   }
   return result;
 }
@@ -247,7 +247,7 @@ void element_costs(Shape shape, int p, std::span<const Vec3> x, std::span<const 
     }
     at_points.clear();
     for (int point : survey->of_simplex[i]) {
-      at_points.push_back(by_corners<d>(ratios[sz(point)], *survey, point, s));
+      at_points.push_back(by_corners<d>(ratios[at(point)], *survey, point, s));
     }
     costs[i] = unpacked<d>(simplex.cost(biased_jacobian<CornerDual<d>>(at_points)));
   }

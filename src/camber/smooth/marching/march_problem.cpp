@@ -55,7 +55,7 @@ class Builder {
   [[nodiscard]] std::span<const Index> edges_of(const Part& part) const {
     if (problem_.dimension == 3) return topology_.edges_of_cell(part.entity);
     return {topology_.face2edge[at(part.entity)].data(),
-            sz(topology_.corners_of_face(part.entity))};
+            at(topology_.corners_of_face(part.entity))};
   }
 
   /// Numbers the nodes of free entities of all elements: edges, then faces, then insides.
@@ -72,8 +72,8 @@ class Builder {
     }
     number_.assign(curved_.high_order_node_count(), k_none);
     for (int dim = 1; dim <= 3; ++dim) {
-      make_sorted_set(entities[sz(dim - 1)]);
-      for (Index entity : entities[sz(dim - 1)]) {
+      make_sorted_set(entities[at(dim - 1)]);
+      for (Index entity : entities[at(dim - 1)]) {
         const std::span<const Vec3> own = own_nodes(curved_, dim, entity);
         for (std::size_t k = 0; k < own.size(); ++k) {
           const std::ptrdiff_t place = &own[k] - curved_.high_order_nodes().data();
@@ -97,7 +97,7 @@ class Builder {
     const std::size_t vertices = curved_.linear().vertices.size();
     std::vector<std::vector<std::pair<Index, double>>> rows(count);
     for (std::size_t n = 0; n < count; ++n) {
-      const std::size_t node = part.nodes ? sz((*part.nodes)[n]) : n;
+      const std::size_t node = part.nodes ? at((*part.nodes)[n]) : n;
       element.X.push_back(X[node]);
       Vec3 base = Vec3::Zero();
       for (const NodeMap::Entry& entry : map.row(i, node)) {
@@ -160,8 +160,8 @@ void MarchElement::gather(std::span<const Vec3> all, Points& x) const {
   x = base;
   for (std::size_t n = 0; n < x.size(); ++n) {
     for (int k = row[n]; k < row[n + 1]; ++k) {
-      const auto& [place, weight] = weights[sz(k)];
-      x[n] += weight * all[at(nodes[sz(place)])];
+      const auto& [place, weight] = weights[at(k)];
+      x[n] += weight * all[at(nodes[at(place)])];
     }
   }
 }

@@ -24,18 +24,18 @@ class CornerSums {
   explicit CornerSums(std::size_t nodes) : sum_(nodes), is_touched_(nodes, 0) {}
 
   void add(int place, const Vec3& slope) {
-    if (!is_touched_[sz(place)]) {
-      is_touched_[sz(place)] = 1;
+    if (!is_touched_[at(place)]) {
+      is_touched_[at(place)] = 1;
       touched_.push_back(place);
-      sum_[sz(place)].setZero();
+      sum_[at(place)].setZero();
     }
-    sum_[sz(place)] += slope;
+    sum_[at(place)] += slope;
   }
   template <class Take>
   void take_all(const Take& take) {
     for (int place : touched_) {
-      take(sz(place), sum_[sz(place)]);
-      is_touched_[sz(place)] = 0;
+      take(at(place), sum_[at(place)]);
+      is_touched_[at(place)] = 0;
     }
     touched_.clear();
   }
@@ -110,10 +110,10 @@ void Marcher<d>::connect() {
     inscribed_radii<d>(element.shape, element.order, element.X, radii);
     const std::span<const SubSimplex> simplices = sub_simplices(element.shape, element.order);
     for (std::size_t s = 0; s < simplices.size(); ++s) {
-      for (std::size_t corner = 0; corner <= sz(d); ++corner) {
-        const std::size_t n = sz(simplices[s][corner]);
+      for (std::size_t corner = 0; corner <= at(d); ++corner) {
+        const std::size_t n = at(simplices[s][corner]);
         for (int k = element.row[n]; k < element.row[n + 1]; ++k) {
-          double& smallest = radius_[at(element.nodes[sz(element.weights[sz(k)].first)])];
+          double& smallest = radius_[at(element.nodes[at(element.weights[at(k)].first)])];
           smallest = std::min(smallest, radii[s]);
         }
       }
@@ -133,10 +133,10 @@ void Marcher<d>::compute(const MarchElement& element, std::span<NodalCost> part,
   CornerSums sums(element.nodes.size());
   const std::span<const SubSimplex> simplices = sub_simplices(element.shape, element.order);
   for (std::size_t s = 0; s < simplices.size(); ++s) {
-    for (std::size_t corner = 0; corner <= sz(d); ++corner) {
-      const std::size_t n = sz(simplices[s][corner]);
+    for (std::size_t corner = 0; corner <= at(d); ++corner) {
+      const std::size_t n = at(simplices[s][corner]);
       for (int k = element.row[n]; k < element.row[n + 1]; ++k) {
-        const auto& [place, weight] = element.weights[sz(k)];
+        const auto& [place, weight] = element.weights[at(k)];
         sums.add(place, weight * costs[s].slope[corner]);
       }
     }
